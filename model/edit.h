@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What one firing does to the state, as a value; only Apply makes a new state.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "model/state.h"
+
+namespace tranos::model {
+
+struct RenderRequest {
+  Model model;  // as it stood when asked for
+  View view;
+  std::string file;  // "" for the next numbered picture
+  int width_px = 1280, height_px = 960;
+};
+struct ExportRequest {
+  Model model;
+  std::string file;  // its extension chooses the format
+};
+using OutputRequest = std::variant<RenderRequest, ExportRequest>;
+
+struct Edit {
+  std::vector<ElementPtr> added;     // Apply gives them their ids, in order
+  std::vector<ElementPtr> replaced;  // new content under the same id
+  std::vector<ElementId> consumed;   // made into something else: out of the model, geometry kept
+  std::vector<ElementId> deleted;
+  // With the first of `added` a group: these go into it (they leave the model as its members).
+  std::vector<ElementId> grouped;
+  // Members of dropped groups that stand in the model by themselves again, with their ids.
+  std::vector<ElementPtr> released;
+  std::optional<Selection> selection;  // ids; kAddedBase + i stands for the i-th of `added`
+  std::optional<SettingsPtr> settings;
+  std::optional<View> view;
+  std::optional<std::vector<std::string>> hidden_levels;
+  std::optional<geom::Vec3> last_point;
+  std::vector<OutputRequest> outputs;  // no part of the state: app runs them after the script
+
+  bool ChangesModel() const {
+    return !added.empty() || !replaced.empty() || !consumed.empty() || !deleted.empty() ||
+           !released.empty();
+  }
+};
+inline constexpr ElementId kAddedBase = 0x80000000;
+
+struct Applied {
+  State state;
+  std::vector<ElementId> made_or_changed;  // added (with their ids), replaced and released
+};
+// The state after the edit. What is consumed or deleted leaves the selection; `last` becomes what was made or changed, if anything was.
+Applied Apply(State state, const Edit& edit);
+
+}  // namespace tranos::model
