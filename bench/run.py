@@ -1,0 +1,272 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Measures whole processes, from start to end, beside the peers that are installed.
+
+Usage: run.py [NAME...]. Inputs are made under build/bench. Each figure is the median of several
+runs, ours and the peer's in turn. A missed target is said and is no failure.
+"""
+
+import os
+import shutil
+import statistics
+import sys
+import time
+from dataclasses import dataclass
+from itertools import chain
+from pathlib import Path
+from typing import Callable, Optional
+
+ROOT = Path(__file__).resolve().parent.parent
+FOLDER = ROOT / "build" / "bench"
+TRANOS = ROOT / "build" / "release" / "tranos"
+LEAST_RUNS, MOST_RUNS, ENOUGH_S = 5, 25, 2.0
+
+
+@dataclass
+class Cost:
+    seconds: float
+    megabytes: float
+
+
+@dataclass
+class Command:
+    """What is run, in FOLDER, and the statuses that count as having done it."""
+    argv: list
+    statuses: tuple = (0,)
+
+
+@dataclass
+class Bench:
+    name: str
+    what: str
+    ours: Command
+    seconds: Optional[float] = None  # targets
+    megabytes: Optional[float] = None
+    times_peer: Optional[float] = None
+    peer: Optional[Command] = None
+
+
+class Failed(Exception):
+    """A command that did not do what was to be measured."""
+
+
+# ---- inputs
+
+def write(name, lines):
+    path = FOLDER / name
+    with open(path, "w", encoding="utf-8") as file:
+        file.writelines(line + "\n" for line in lines)
+    return path.name
+
+
+def places(count):
+    """Points of a grid, no two alike."""
+    return ((i % 100, i // 100, i % 3) for i in range(count))
+
+
+def point_script(name, count):
+    return write(name, (f"place point xy={x},{y},{z}" for x, y, z in places(count)))
+
+
+def house_script(name, count, changed):
+    """Rows of posts and circles; `changed` inserts a line at the top and alters a few."""
+    def lines():
+        if changed:
+            yield "place line xy=-5,-5 dl=1 reset"
+        for i, (x, y, z) in enumerate(places(count)):
+            shift = 0.25 if changed and i % 1000 == 500 else 0
+            if i % 2:
+                yield f"place circle center xy={x + shift},{y},{z} radius=0.4"
+            else:
+                yield f"place line xy={x + shift},{y},{z} dl=0,0,3 reset"
+    return write(name, lines())
+
+
+def figure_six(name, with_picture):
+    script = (ROOT / "scripts" / "cruciform_dome.trn").read_text(encoding="utf-8").splitlines()
+    kept = [line for line in script if "render" not in line and "export" not in line]
+    return write(name, kept + (["set view phong antialias | render all"] if with_picture else []))
+
+
+def journal_of(script, name):
+    run_once(tranos("run", script, "--no-output", "--journal", name))
+    return name
+
+
+# ---- commands
+
+def tranos(*words, statuses=(0,)):
+    return Command([str(TRANOS), *words], statuses)
+
+
+def peer(program, *words):
+    found = shutil.which(program)
+    return Command([found, *words]) if found else None
+
+
+def run_once(command):
+    """Runs to the end and returns what it cost. The peak memory is the child's own, as the system
+    counted it, but no less than this small script's, which the child starts as a copy of."""
+    quiet = [(os.POSIX_SPAWN_OPEN, 1, "stdout.log", os.O_WRONLY | os.O_CREAT | os.O_TRUNC, 0o644),
+             (os.POSIX_SPAWN_OPEN, 2, "stderr.log", os.O_WRONLY | os.O_CREAT | os.O_TRUNC, 0o644)]
+    start = time.perf_counter()
+    child = os.posix_spawn(command.argv[0], command.argv, os.environ, file_actions=quiet)
+    _, status, usage = os.wait4(child, 0)
+    seconds = time.perf_counter() - start
+    code = os.waitstatus_to_exitcode(status)
+    if code not in command.statuses:
+        said = Path("stderr.log").read_text(errors="replace").strip().splitlines()
+        raise Failed(f"status {code} from {' '.join(command.argv[1:])}: {(said or ['silent'])[0]}")
+    return Cost(seconds, usage.ru_maxrss / 1024)
+
+
+def measure(commands):
+    """The median cost of each, run in turn so that all meet the same load."""
+    costs = [[] for _ in commands]
+    for command in commands:
+        run_once(command)
+    spent = 0.0
+    while len(costs[0]) < LEAST_RUNS or (spent < ENOUGH_S and len(costs[0]) < MOST_RUNS):
+        for command, list_ in zip(commands, costs):
+            list_.append(run_once(command))
+            spent += list_[-1].seconds
+    return [Cost(statistics.median(c.seconds for c in list_),
+                 statistics.median(c.megabytes for c in list_)) for list_ in costs]
+
+
+# ---- the benches
+
+def start():
+    script = write("empty.trn", [])
+    return Bench("start", "an empty script", tranos("run", script, "-o", "output"),
+                 seconds=0.015, megabytes=30)
+
+
+def points():
+    script = point_script("points.trn", 100_000)
+    scad = write("points.scad", (f"translate([{x},{y},{z}]) square(1);"
+                                 for x, y, z in places(100_000)))
+    return Bench("points", "100 000 statements (peer: OpenSCAD)",
+                 tranos("run", script, "--no-output"), seconds=0.4, megabytes=120,
+                 peer=peer("openscad", "-o", "points.csg", scad))
+
+
+def points_lua():
+    script = point_script("points.trn", 100_000)
+    lua = write("points.lua", chain(
+        ["local points = {}",
+         "local function point(x, y, z) points[#points + 1] = {x, y, z} end"],
+        (f"point({x},{y},{z})" for x, y, z in places(100_000))))
+    return Bench("points_lua", "100 000 statements (peer: Lua)",
+                 tranos("run", script, "--no-output"), seconds=0.4, megabytes=120,
+                 peer=peer("lua5.4", lua))
+
+
+def points_glb():
+    script = point_script("points.trn", 100_000)
+    return Bench("points_glb", "100 000 statements to GLB", tranos("run", script, "-o", "output"),
+                 seconds=3)
+
+
+def loop():
+    script = write("loop.trn", ["for i = 1 to 1000000 { let x = (i*i + 3*i)/7 - 0.5 }"])
+    lua = write("loop.lua", ["for i = 1, 1000000 do local x = (i*i + 3*i)/7 - 0.5 end"])
+    return Bench("loop", "a million turns of a loop (peer: Lua)",
+                 tranos("run", script, "--no-output"), times_peer=3, peer=peer("lua5.4", lua))
+
+
+def dome():
+    script = figure_six("dome.trn", with_picture=False)
+    return Bench("dome", "Fig. 6, from text to GLB", tranos("run", script, "-o", "output"),
+                 seconds=0.03)
+
+
+def picture():
+    script = figure_six("picture.trn", with_picture=True)
+    return Bench("picture", "Fig. 6 and its picture, 1280×960", tranos("run", script, "-o", "output"),
+                 seconds=1)
+
+
+def replay():
+    journal = journal_of(point_script("replay.trn", 50_000), "replay.jsonl")
+    return Bench("replay", "replay of 100 000 key-ins", tranos("replay", journal), seconds=1)
+
+
+def diff():
+    before = house_script("before.trn", 10_000, changed=False)
+    after = house_script("after.trn", 10_000, changed=True)
+    return Bench("diff", "diff of two models of 10 000 elements",
+                 tranos("diff", before, after, statuses=(0, 1)), seconds=0.5)
+
+
+BENCHES: dict[str, Callable[[], Bench]] = {
+    make.__name__: make
+    for make in (start, points, points_lua, points_glb, loop, dome, picture, replay, diff)}
+
+
+# ---- the table
+
+def time_text(seconds):
+    return f"{seconds * 1000:.1f} ms" if seconds < 0.1 else f"{seconds:.2f} s"
+
+
+def row(*cells):
+    widths = (40, 18, 18, 18, 7, 0)
+    print("  ".join(cell.ljust(width) for cell, width in zip(cells, widths)).rstrip(), flush=True)
+
+
+def targets_text(bench):
+    parts = []
+    if bench.seconds:
+        parts.append(time_text(bench.seconds))
+    if bench.megabytes:
+        parts.append(f"{bench.megabytes:.0f} MB")
+    if bench.times_peer:
+        parts.append(f"{bench.times_peer:g} × peer")
+    return "≤ " + ", ".join(parts)
+
+
+def cost_text(cost):
+    return f"{time_text(cost.seconds)}, {cost.megabytes:.0f} MB"
+
+
+def verdict(bench, ours, theirs):
+    missed = ((bench.seconds and ours.seconds > bench.seconds)
+              or (bench.megabytes and ours.megabytes > bench.megabytes)
+              or (bench.times_peer and theirs
+                  and ours.seconds > bench.times_peer * theirs.seconds))
+    if bench.times_peer and not theirs:
+        return "no peer"
+    return "MISSED" if missed else "ok"
+
+
+def report(make):
+    bench = make()
+    costs = measure([bench.ours] + ([bench.peer] if bench.peer else []))
+    ours, theirs = costs[0], costs[1] if bench.peer else None
+    row(bench.what, targets_text(bench), cost_text(ours), cost_text(theirs) if theirs else "-",
+        f"{ours.seconds / theirs.seconds:.2f}" if theirs else "-", verdict(bench, ours, theirs))
+
+
+def main():
+    names = sys.argv[1:] or list(BENCHES)
+    unknown = [name for name in names if name not in BENCHES]
+    if unknown:
+        print(f"no bench {unknown[0]}; there are {' '.join(BENCHES)}", file=sys.stderr)
+        return 2
+    (FOLDER / "output").mkdir(parents=True, exist_ok=True)
+    os.chdir(FOLDER)
+    print(f"{os.cpu_count()} cores, load {os.getloadavg()[0]:.1f}; medians of whole processes")
+    row("figure", "target", "measured", "peer", "ratio", "")
+    status = 0
+    for name in names:
+        try:
+            report(BENCHES[name])
+        except (Failed, OSError) as error:
+            print(f"{name}: could not be measured: {error}")
+            status = 1
+    return status
+
+
+if __name__ == "__main__":
+    sys.exit(main())
