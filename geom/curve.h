@@ -57,6 +57,15 @@ Result<Arc> ArcThrough(const Vec3& start, const Vec3& on, const Vec3& end);
 // The arc about `centre` from `start`, counter-clockwise about `normal`, to the direction of `end`.
 Result<Arc> ArcAround(const Vec3& centre, const Vec3& start, const Vec3& end, const Vec3& normal);
 
+// Coordinates beyond this are refused: their squares would overflow.
+inline constexpr double kLargestCoordinate_m = 1e100;
+
+// Whether the curve is sound: finite numbers, orthonormal frames, clamped ascending knots,
+// positive weights. Of a curve that is not, measures are zero and boxes empty.
+tl::expected<void, Error> Check(const Curve&);
+// Finite, ascending, the first and the last degree + 1 times, none inside more than degree times.
+bool AreClampedKnots(const std::vector<double>& knots, int degree);
+
 // Curves joined to one chain, each turned round where needed, the first keeping its direction if
 // possible; order as given. kDoNotMeet with the index of the first that does not reach the one before.
 Result<Chain> JoinChain(const std::vector<Curve>& curves, double tolerance_m = 1e-6);
