@@ -183,8 +183,8 @@ def dome():
 
 def picture():
     script = figure_six("picture.trn", with_picture=True)
-    return Bench("picture", "Fig. 6 and its picture, 1280×960", tranos("run", script, "-o", "output"),
-                 seconds=1)
+    return Bench("picture", "Fig. 6 and its picture, 1280×960",
+                 tranos("run", script, "-o", "output"), seconds=1)
 
 
 def replay():

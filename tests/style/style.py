@@ -113,7 +113,10 @@ def check_source(path, text):
 
 
 def check_words(name, text):
-    for pattern in [UNFINISHED, MACHINE_PATH] + ([] if name.startswith("tests/") else [SCRATCH_PATH]):
+    patterns = [UNFINISHED, MACHINE_PATH]
+    if not name.startswith("tests/"):
+        patterns.append(SCRATCH_PATH)
+    for pattern in patterns:
         found = pattern.search(text)
         if found:
             yield f"contains {found.group()}"
