@@ -50,7 +50,8 @@ struct Applied {
   State state;
   std::vector<ElementId> made_or_changed;  // added (with their ids), replaced and released
 };
-// The state after the edit. What is consumed or deleted leaves the selection; `last` becomes what was made or changed, if anything was.
+// The state after the edit. What is consumed or deleted leaves the selection; `last` becomes what
+// was made or changed, if anything was.
 Applied Apply(State state, const Edit& edit);
 
 }  // namespace tranos::model

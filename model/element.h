@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -36,16 +37,28 @@ Rgb RgbOf(Colour colour);
 std::string Describe(Colour colour);  // "3" or "#a0b0c0"
 
 enum class Evidence : std::uint8_t {
-  kNone, kMeasured, kPhoto, kExcavation, kDocument, kSymmetry, kAnalogy, kConjecture,
+  kNone,
+  kMeasured,
+  kPhoto,
+  kExcavation,
+  kDocument,
+  kSymmetry,
+  kAnalogy,
+  kConjecture,
 };
 std::string_view WordOf(Evidence evidence);  // "" for kNone
 std::optional<Evidence> EvidenceOf(std::string_view word);
 
-// The settings an element keeps. `own` has a bit for each one that was set where it was made; a part
-// of a definition takes the others from its placement.
+// The settings an element keeps. `own` has a bit for each one that was set where it was made; a
+// part of a definition takes the others from its placement.
 struct Attributes {
   enum Own : std::uint8_t {
-    kColour = 1, kLinestyle = 2, kWeight = 4, kLevel = 8, kMaterial = 16, kEvidence = 32,
+    kColour = 1,
+    kLinestyle = 2,
+    kWeight = 4,
+    kLevel = 8,
+    kMaterial = 16,
+    kEvidence = 32,
   };
   Colour colour;
   int linestyle = 0;
@@ -59,6 +72,8 @@ struct Attributes {
 using AttributesPtr = std::shared_ptr<const Attributes>;
 // `part` with what it does not own taken from `placement`.
 Attributes Inherit(const Attributes& part, const Attributes& placement);
+
+void AddToHash(Hasher& hasher, const Attributes& attributes);  // all but `own`
 
 struct Element;
 using ElementPtr = std::shared_ptr<const Element>;
@@ -89,9 +104,12 @@ struct Prototype {
   std::vector<NamedElements> names;
   std::vector<Interface> interfaces;
   std::vector<std::pair<std::string, Value>> parameters;  // in the order of declaration
-  Hash128 hash;  // of parts and words
+  Hash128 hash;                                           // of parts and words
 };
 using PrototypePtr = std::shared_ptr<const Prototype>;
+// The prototype with its hash computed: over words, parts in their order and which settings they
+// own.
+PrototypePtr MakePrototype(Prototype prototype);
 
 struct Instance {
   PrototypePtr prototype;
@@ -126,6 +144,8 @@ ElementPtr WithId(const Element& element, ElementId id);  // members of a group 
 ElementPtr WithName(const Element& element, std::string name);
 ElementPtr WithAttributes(const Element& element, AttributesPtr attributes);  // members too
 ElementPtr WithGeometry(const Element& element, Geometry geometry);
+// The group with `map` of each member, its names following. A member whose map is null leaves it.
+GroupPtr MapMembers(const Group& group, const std::function<ElementPtr(const ElementPtr&)>& map);
 // Groups member by member; an instance by its transform alone.
 ElementPtr Transformed(const Element& element, const geom::Affine& target_from_source);
 
@@ -134,7 +154,8 @@ ElementPtr Transformed(const Element& element, const geom::Affine& target_from_s
 std::string TypeOf(const Element& element);
 
 // Measures. Nothing where the element has none of the kind: a point has no length, an open curve
-// no area, a surface no length. Groups and instances sum their parts'; the area is that of faces and of closed planar curves.
+// no area, a surface no length. Groups and instances sum their parts'; the area is that of faces
+// and of closed planar curves.
 geom::Box BoundingBox(const Element& element);
 std::optional<double> Length(const Element& element);
 std::optional<double> Area(const Element& element);

@@ -1,149 +1,151 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A vector whose every version stays valid and shares structure with the others: the state before
-// a step costs a few words, not a copy. Append is O(1), set O(log₃₂ n).
+// a step costs three words, not a copy. Append is O(1), Set O(log₃₂ n).
 //
-// A radix tree of 32-way nodes with a tail. Versions share the tail's buffer: a version sees only the
-// first `tail_size_` slots, so the newest version may append into free slots without copying. An
-// older version that appends finds the slot taken and copies the tail then.
+// A radix tree of 32-way nodes with a tail. Versions share the tail: a version sees only the slots
+// below its size, so the newest version may append into free slots without copying. An older
+// version that appends finds the slot claimed and copies the tail then. What one version alone
+// owns is changed in place, so that many changes of one step copy a path once.
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <cstddef>
-#include <memory>
-#include <variant>
+#include <cstdint>
+#include <utility>
+
+#include "model/counted_pointer.h"
 
 namespace tranos::model {
 
 template <class T>
 class PersistentVector {
  public:
-  static constexpr std::size_t kBits = 5, kWidth = std::size_t{1} << kBits;
+  static constexpr unsigned kBits = 5;
+  static constexpr std::size_t kWidth = std::size_t{1} << kBits;
 
-  std::size_t size() const { return tree_size_ + tail_size_; }
-  bool empty() const { return size() == 0; }
+  std::size_t size() const { return size_; }
+  bool empty() const { return size_ == 0; }
 
   const T& operator[](std::size_t index) const {
-    if (index >= tree_size_) return tail_->items[index - tree_size_];
-    const Node* node = root_.get();
-    for (unsigned shift = shift_; shift > 0; shift -= kBits) {
-      node = std::get<Children>(node->content)[(index >> shift) & kMask].get();
+    if (index >= tree_size()) return AsLeaf(*tail_).items[index & kMask];
+    const Block* node = root_.get();
+    for (unsigned shift = node->shift; shift > 0; shift -= kBits) {
+      node = AsInner(*node).children[(index >> shift) & kMask].get();
     }
-    return std::get<LeafPtr>(node->content)->items[index & kMask];
+    return AsLeaf(*node).items[index & kMask];
   }
-  const T& back() const { return (*this)[size() - 1]; }
+  const T& back() const { return (*this)[size_ - 1]; }
 
   void Append(T item) {
-    if (tail_size_ == kWidth) PushTail();
-    if (!tail_ || tail_->used != tail_size_) {
-      auto copy = std::make_shared<Leaf>();
-      for (std::size_t i = 0; i < tail_size_; ++i) copy->items[i] = tail_->items[i];
-      copy->used = tail_size_;
-      tail_ = std::move(copy);
+    if (tail_ && tail_size() == kWidth) PushTail();
+    const auto used = static_cast<std::uint32_t>(size_ & kMask);
+    if (!tail_ || !Claim(AsLeaf(*tail_), used)) {
+      tail_ = CopyOfTail(used);
+      AsLeaf(*tail_).used.store(used + 1, std::memory_order_relaxed);
     }
-    tail_->items[tail_size_] = std::move(item);
-    tail_->used = ++tail_size_;
+    AsLeaf(*tail_).items[used] = std::move(item);
+    ++size_;
   }
 
   void Set(std::size_t index, T item) {
-    if (index >= tree_size_) {
-      auto copy = std::make_shared<Leaf>();
-      for (std::size_t i = 0; i < tail_size_; ++i) copy->items[i] = tail_->items[i];
-      copy->used = tail_size_;
-      copy->items[index - tree_size_] = std::move(item);
-      tail_ = std::move(copy);
+    if (index >= tree_size()) {
+      if (!tail_.unique()) tail_ = CopyOfTail(static_cast<std::uint32_t>(tail_size()));
+      AsLeaf(*tail_).items[index & kMask] = std::move(item);
       return;
     }
-    root_ = SetIn(*root_, shift_, index, std::move(item));
+    Pointer* at = &root_;
+    for (unsigned shift = root_->shift; shift > 0; shift -= kBits) {
+      at = &Own<Inner>(*at).children[(index >> shift) & kMask];
+    }
+    Own<Leaf>(*at).items[index & kMask] = std::move(item);
   }
 
   // Calls f(item) for each item in order.
   template <class F>
   void ForEach(F&& f) const {
     if (root_) ForEachIn(*root_, f);
-    for (std::size_t i = 0; i < tail_size_; ++i) f(tail_->items[i]);
+    for (std::size_t i = 0; i < tail_size(); ++i) f(AsLeaf(*tail_).items[i]);
   }
 
  private:
   static constexpr std::size_t kMask = kWidth - 1;
-  struct Leaf {
-    std::array<T, kWidth> items{};
-    std::size_t used = 0;  // slots that some version has filled
-  };
-  using LeafPtr = std::shared_ptr<Leaf>;
-  struct Node;
-  using NodePtr = std::shared_ptr<const Node>;
-  using Children = std::array<NodePtr, kWidth>;
-  struct Node {
-    std::variant<Children, LeafPtr> content;
-  };
 
+  struct Block {
+    OwnerCount owners;
+    unsigned shift = 0;  // bits below a slot of this node; 0 for a leaf
+    friend void Destroy(Block* block) {
+      if (block->shift == 0) {
+        delete static_cast<Leaf*>(block);
+      } else {
+        delete static_cast<Inner*>(block);
+      }
+    }
+  };
+  using Pointer = CountedPointer<Block>;
+  struct Leaf : Block {
+    Leaf() = default;
+    Leaf(const Leaf& other) : Block(other), items(other.items) { used.store(kWidth); }
+    std::atomic<std::uint32_t> used{0};  // slots that some version has filled
+    std::array<T, kWidth> items{};
+  };
+  struct Inner : Block {
+    explicit Inner(unsigned bits) { this->shift = bits; }
+    std::array<Pointer, kWidth> children{};
+  };
+  static Leaf& AsLeaf(Block& block) { return static_cast<Leaf&>(block); }
+  static const Leaf& AsLeaf(const Block& block) { return static_cast<const Leaf&>(block); }
+  static const Inner& AsInner(const Block& block) { return static_cast<const Inner&>(block); }
+
+  std::size_t tail_size() const { return size_ == 0 ? 0 : ((size_ - 1) & kMask) + 1; }
+  std::size_t tree_size() const { return size_ - tail_size(); }
+
+  static bool Claim(Leaf& leaf, std::uint32_t slot) {
+    return leaf.used.compare_exchange_strong(slot, slot + 1, std::memory_order_acq_rel);
+  }
+  Pointer CopyOfTail(std::uint32_t count) const {
+    auto* copy = new Leaf;
+    for (std::uint32_t i = 0; i < count; ++i) copy->items[i] = AsLeaf(*tail_).items[i];
+    copy->used.store(count, std::memory_order_relaxed);
+    return Pointer(copy);
+  }
+  // The node behind `pointer`, which no other version sees after this.
+  template <class Node>
+  static Node& Own(Pointer& pointer) {
+    if (!pointer.unique()) pointer = Pointer(new Node(static_cast<const Node&>(*pointer)));
+    return static_cast<Node&>(*pointer);
+  }
   // Moves the full tail into the tree, which grows by a level when it is full.
   void PushTail() {
-    auto leaf = std::make_shared<const Node>(Node{tail_});
+    const std::size_t index = size_ - kWidth;
     if (!root_) {
-      root_ = std::move(leaf);
-      shift_ = 0;
-    } else if (tree_size_ == kWidth << shift_) {
-      Children children;
-      children[0] = root_;
-      children[1] = NewPath(shift_, std::move(leaf));
-      root_ = std::make_shared<const Node>(Node{std::move(children)});
-      shift_ += kBits;
-    } else {
-      root_ = PushIn(*root_, shift_, std::move(leaf));
+      root_ = Pointer(new Inner(kBits));
+    } else if (index == kWidth << root_->shift) {
+      auto* taller = new Inner(root_->shift + kBits);
+      taller->children[0] = std::move(root_);
+      root_ = Pointer(taller);
     }
-    tree_size_ += kWidth;
-    tail_ = nullptr;
-    tail_size_ = 0;
-  }
-  static NodePtr NewPath(unsigned shift, NodePtr node) {
-    for (; shift > 0; shift -= kBits) {
-      Children children;
-      children[0] = std::move(node);
-      node = std::make_shared<const Node>(Node{std::move(children)});
+    Pointer* at = &root_;
+    for (unsigned shift = root_->shift; shift > 0; shift -= kBits) {
+      if (!*at) *at = Pointer(new Inner(shift));
+      at = &Own<Inner>(*at).children[(index >> shift) & kMask];
     }
-    return node;
-  }
-  NodePtr PushIn(const Node& node, unsigned shift, NodePtr leaf) const {
-    Children children = std::get<Children>(node.content);
-    const std::size_t slot = (tree_size_ >> shift) & kMask;
-    const unsigned below = shift - kBits;
-    if (below == 0) {
-      children[slot] = std::move(leaf);
-    } else if (children[slot]) {
-      children[slot] = PushIn(*children[slot], below, std::move(leaf));
-    } else {
-      children[slot] = NewPath(below, std::move(leaf));
-    }
-    return std::make_shared<const Node>(Node{std::move(children)});
-  }
-  static NodePtr SetIn(const Node& node, unsigned shift, std::size_t index, T item) {
-    if (shift == 0) {
-      auto leaf = std::make_shared<Leaf>(*std::get<LeafPtr>(node.content));
-      leaf->items[index & kMask] = std::move(item);
-      return std::make_shared<const Node>(Node{std::move(leaf)});
-    }
-    Children children = std::get<Children>(node.content);
-    const std::size_t slot = (index >> shift) & kMask;
-    children[slot] = SetIn(*children[slot], shift - kBits, index, std::move(item));
-    return std::make_shared<const Node>(Node{std::move(children)});
+    *at = std::move(tail_);
   }
   template <class F>
-  static void ForEachIn(const Node& node, F& f) {
-    if (const auto* leaf = std::get_if<LeafPtr>(&node.content)) {
-      for (const T& item : (*leaf)->items) f(item);
+  static void ForEachIn(const Block& block, F& f) {
+    if (block.shift == 0) {
+      for (const T& item : AsLeaf(block).items) f(item);
       return;
     }
-    for (const NodePtr& child : std::get<Children>(node.content)) {
+    for (const Pointer& child : AsInner(block).children) {
       if (child) ForEachIn(*child, f);
     }
   }
 
-  NodePtr root_;
-  LeafPtr tail_;
-  std::size_t tree_size_ = 0;
-  std::size_t tail_size_ = 0;
-  unsigned shift_ = 0;  // bits below the root's slot
+  Pointer root_;
+  Pointer tail_;
+  std::size_t size_ = 0;
 };
 
 }  // namespace tranos::model

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// State{Model, Drawing}: everything a key-in can read or change. It is made of persistent parts, so that
-// keeping an earlier state (undo, the journal, the diff) costs a few words.
+// State{Model, Drawing}: everything a key-in can read or change. It is made of persistent parts, so
+// that keeping an earlier state (undo, the journal, the diff) costs a few words.
 #pragma once
 
 #include <memory>
@@ -8,25 +8,18 @@
 #include <vector>
 
 #include "geom/primitives.h"
-#include "model/element.h"
-#include "model/persistent_vector.h"
+#include "model/entry.h"
+#include "model/names.h"
+#include "model/selection.h"
 
 namespace tranos::model {
 
-// kMember: inside a group (`owner`); kConsumed: made into something else; kDeleted: gone, its name too.
-enum class Standing : std::uint8_t { kInModel, kMember, kConsumed, kDeleted };
-
-struct Entry {
-  ElementPtr element;
-  Standing standing = Standing::kInModel;
-  ElementId owner = kNoElement;
-};
-
 struct Model {
-  PersistentVector<Entry> entries;  // by id
-  Hash128 hash;                     // sum over the entries in the model
-  std::size_t live = 0;             // how many are in the model
-  std::shared_ptr<const std::vector<std::string>> hidden_levels;  // levels that are off; may be null
+  Entries entries;       // by id
+  Hash128 hash;          // sum over the entries in the model
+  std::size_t live = 0;  // how many are in the model
+  std::shared_ptr<const std::vector<std::string>>
+      hidden_levels;  // levels that are off; may be null
 
   // The element as it is now: of a group's member, the one in the group. Null when deleted.
   ElementPtr Current(ElementId id) const;
@@ -46,14 +39,14 @@ struct Model {
 // The settings (LANGUAGE.md, section 3) and the active plane; immutable, shared until one is set.
 struct Settings {
   AttributesPtr attributes = std::make_shared<const Attributes>();
-  double angle_rad = 0;                        // aa
-  geom::Vec3 scale = geom::Vec3::Ones();       // as
-  double depth_m = 0;                          // az
-  geom::Tolerance tolerance;                   // tol, fn
-  double locate_tolerance_m = 0.01;            // lt
-  double noise_px = 0.5;                       // noise
-  std::string unit = "m";                      // un, for messages
-  geom::Frame plane;                           // the active system
+  double angle_rad = 0;                   // aa
+  geom::Vec3 scale = geom::Vec3::Ones();  // as
+  double depth_m = 0;                     // az
+  geom::Tolerance tolerance;              // tol, fn
+  double locate_tolerance_m = 0.01;       // lt
+  double noise_px = 0.5;                  // noise
+  std::string unit = "m";                 // un, for messages
+  geom::Frame plane;                      // the active system
 };
 using SettingsPtr = std::shared_ptr<const Settings>;
 Hash128 HashOf(const Settings& settings);
@@ -68,21 +61,12 @@ struct View {
 };
 geom::Frame FrameOf(std::string_view direction);  // x right, y up, z towards the viewer
 
-// Chosen elements, in the order of choosing, each once.
-using Selection = std::vector<ElementId>;
-
-// What names stand for in one name scope (script, group, define body), by index.
-struct NameBinding {
-  PersistentVector<ElementId> ids;
-  bool given = false;
-};
-
 struct Drawing {
   SettingsPtr settings = std::make_shared<const Settings>();
   geom::Vec3 last_point = geom::Vec3::Zero();
-  std::shared_ptr<const Selection> selection = std::make_shared<const Selection>();
-  std::shared_ptr<const Selection> last = std::make_shared<const Selection>();  // `last`
-  PersistentVector<NameBinding> names;
+  Selection selection;
+  Selection last;  // what the most recent firing that made or changed elements made or changed
+  Names names;
   std::shared_ptr<const View> view = std::make_shared<const View>();
 };
 
@@ -91,7 +75,8 @@ struct State {
   Drawing drawing;
 };
 
-// Over model, settings, last point, selection, `last` and names, by content and never by id.
+// Over everything in it, by content and never by id. In constant time, but for the levels that are
+// off.
 Hash128 HashOf(const State& state);
 
 }  // namespace tranos::model

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A value of the language: sixteen bytes, copied freely. Numbers, booleans and nothing are held in place;
-// the rest is behind a counted pointer to something immutable.
+// A value of the language: sixteen bytes, copied freely. Numbers, booleans and nothing are held in
+// place; the rest is behind a counted pointer to something immutable.
 #pragma once
 
 #include <cstdint>
@@ -40,7 +40,16 @@ struct Closure {
 class Value {
  public:
   enum class Kind : std::uint8_t {
-    kNone, kNumber, kBoolean, kUncertain, kString, kList, kRange, kPlane, kElement, kClosure,
+    kNone,
+    kNumber,
+    kBoolean,
+    kUncertain,
+    kString,
+    kList,
+    kRange,
+    kPlane,
+    kElement,
+    kClosure,
   };
 
   Value() = default;
@@ -135,6 +144,7 @@ class Value {
   }
   void AddReference() const;
   void DropReference();
+  void FreeList();
 
   Kind kind_ = Kind::kNone;
   Dimension dimension_;

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "model/hash.h"
+
+#define XXH_INLINE_ALL
+#include <xxhash.h>
+
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+namespace tranos::model {
+
+namespace {
+
+constexpr double kStepsPerMetre = 0x1p30;
+constexpr double kStepsPerUnit = 0x1p40;  // of radians and ratios
+
+// The number on its grid, as an integer. Where that might overflow, a double is coarser than the
+// grid anyway, and its own bits stand for it; they are larger than any integer below the bound.
+std::int64_t OnGrid(double number, double steps) {
+  const double scaled = number * steps;
+  if (std::abs(scaled) < 0x1p61) return std::llrint(scaled);
+  if (std::isnan(number)) return std::numeric_limits<std::int64_t>::min();
+  const auto bits = std::bit_cast<std::int64_t>(std::abs(number));
+  return number < 0 ? -bits : bits;
+}
+
+}  // namespace
+
+Hash128 operator+(const Hash128& a, const Hash128& b) {
+  const std::uint64_t low = a.low + b.low;
+  return {a.high + b.high + (low < a.low ? 1 : 0), low};
+}
+
+Hash128 operator-(const Hash128& a, const Hash128& b) {
+  return {a.high - b.high - (a.low < b.low ? 1 : 0), a.low - b.low};
+}
+
+std::string Hex(const Hash128& hash) {
+  static constexpr char kDigits[] = "0123456789abcdef";
+  std::string text;
+  text.reserve(32);
+  for (const std::uint64_t word : {hash.high, hash.low}) {
+    for (int shift = 60; shift >= 0; shift -= 4) text += kDigits[(word >> shift) & 15];
+  }
+  return text;
+}
+
+void Hasher::Bytes(const void* data, std::size_t size) {
+  if (large_.empty()) {
+    if (size_ + size <= sizeof small_) {
+      std::memcpy(small_ + size_, data, size);
+      size_ += size;
+      return;
+    }
+    large_.assign(small_, small_ + size_);
+  }
+  const auto* bytes = static_cast<const std::uint8_t*>(data);
+  large_.insert(large_.end(), bytes, bytes + size);
+}
+
+Hasher& Hasher::Tag(std::uint8_t tag) {
+  Bytes(&tag, sizeof tag);
+  return *this;
+}
+
+Hasher& Hasher::Integer(std::int64_t value) {
+  Bytes(&value, sizeof value);
+  return *this;
+}
+
+Hasher& Hasher::Length(double metres) { return Integer(OnGrid(metres, kStepsPerMetre)); }
+Hasher& Hasher::Angle(double radians) { return Integer(OnGrid(radians, kStepsPerUnit)); }
+Hasher& Hasher::Ratio(double number) { return Integer(OnGrid(number, kStepsPerUnit)); }
+
+Hasher& Hasher::Point(const geom::Vec3& metres) {
+  const std::int64_t grid[] = {OnGrid(metres.x(), kStepsPerMetre),
+                               OnGrid(metres.y(), kStepsPerMetre),
+                               OnGrid(metres.z(), kStepsPerMetre)};
+  Bytes(grid, sizeof grid);
+  return *this;
+}
+
+Hasher& Hasher::Direction(const geom::Vec3& unit) {
+  return Ratio(unit.x()).Ratio(unit.y()).Ratio(unit.z());
+}
+
+Hasher& Hasher::Text(std::string_view text) {
+  Integer(static_cast<std::int64_t>(text.size()));
+  Bytes(text.data(), text.size());
+  return *this;
+}
+
+Hasher& Hasher::Hash(const Hash128& hash) {
+  const std::uint64_t words[] = {hash.high, hash.low};
+  Bytes(words, sizeof words);
+  return *this;
+}
+
+Hash128 Hasher::Finish() const {
+  const XXH128_hash_t hash =
+      large_.empty() ? XXH3_128bits(small_, size_) : XXH3_128bits(large_.data(), large_.size());
+  return {hash.high64, hash.low64};
+}
+
+}  // namespace tranos::model

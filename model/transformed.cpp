@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "model/element.h"
+
+namespace tranos::model {
+
+namespace {
+
+struct TransformedGeometry {
+  const geom::Affine& target_from_source;
+
+  Geometry operator()(const Point& point) const {
+    return Point{target_from_source * point.position};
+  }
+  Geometry operator()(const CurvePtr& curve) const {
+    return std::make_shared<const geom::Curve>(geom::Transformed(*curve, target_from_source));
+  }
+  Geometry operator()(const SurfacePtr& surface) const {
+    return std::make_shared<const geom::Surface>(geom::Transformed(*surface, target_from_source));
+  }
+  Geometry operator()(const TextPtr& text) const {
+    return std::make_shared<const geom::Text>(geom::Transformed(*text, target_from_source));
+  }
+  Geometry operator()(const GroupPtr& group) const {
+    return MapMembers(
+        *group, [&](const ElementPtr& member) { return Transformed(*member, target_from_source); });
+  }
+  Geometry operator()(const InstancePtr& instance) const {
+    return std::make_shared<const Instance>(
+        Instance{instance->prototype, target_from_source * instance->world_from_prototype});
+  }
+};
+
+}  // namespace
+
+ElementPtr Transformed(const Element& element, const geom::Affine& target_from_source) {
+  return WithGeometry(element,
+                      std::visit(TransformedGeometry{target_from_source}, element.geometry));
+}
+
+}  // namespace tranos::model

@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "model/value.h"
+
+#include <algorithm>
+#include <iterator>
+
+#include "model/element.h"
+
+namespace tranos::model {
+
+// The count stands first in every heap object, so that it is reached without knowing the content.
+// Values belong to one thread, hence no atomic.
+struct Value::Heap {
+  std::uint32_t references = 1;
+};
+
+template <class T>
+struct Value::HeapOf {
+  Heap heap;
+  T content;
+};
+
+template <class T>
+Value Value::Make(Kind kind, Dimension dimension, T content) {
+  Value value;
+  value.kind_ = kind;
+  value.dimension_ = dimension;
+  value.heap_ = &(new HeapOf<T>{{}, std::move(content)})->heap;
+  return value;
+}
+
+template <class T>
+const T& Value::Get() const {
+  return reinterpret_cast<const HeapOf<T>*>(heap_)->content;
+}
+
+Value Value::Uncertain(model::Uncertain number, Dimension dimension) {
+  return Make(Kind::kUncertain, dimension, std::move(number));
+}
+Value Value::String(std::string text) { return Make(Kind::kString, kPlain, std::move(text)); }
+Value Value::List(std::vector<Value> items) { return Make(Kind::kList, kPlain, std::move(items)); }
+Value Value::Range(ValueRange range, Dimension dimension) {
+  return Make(Kind::kRange, dimension, range);
+}
+Value Value::Plane(const geom::Frame& plane) { return Make(Kind::kPlane, kPlain, plane); }
+Value Value::OfElement(std::shared_ptr<const Element> element) {
+  return Make(Kind::kElement, kPlain, std::move(element));
+}
+Value Value::OfClosure(Closure closure) { return Make(Kind::kClosure, kPlain, std::move(closure)); }
+Value Value::OfPoint(const geom::Vec3& point_m) {
+  return List(
+      {Number(point_m.x(), kLength), Number(point_m.y(), kLength), Number(point_m.z(), kLength)});
+}
+
+double Value::number() const {
+  return kind_ == Kind::kUncertain ? Get<model::Uncertain>().value : number_;
+}
+const Derivatives* Value::derivatives() const {
+  return kind_ == Kind::kUncertain ? &Get<model::Uncertain>().derivatives : nullptr;
+}
+const std::string& Value::string() const { return Get<std::string>(); }
+const std::vector<Value>& Value::list() const { return Get<std::vector<Value>>(); }
+const ValueRange& Value::range() const { return Get<ValueRange>(); }
+const geom::Frame& Value::plane() const { return Get<geom::Frame>(); }
+const std::shared_ptr<const Element>& Value::element() const {
+  return Get<std::shared_ptr<const Element>>();
+}
+const Closure& Value::closure() const { return Get<Closure>(); }
+
+void Value::AddReference() const { ++heap_->references; }
+
+void Value::DropReference() {
+  if (--heap_->references > 0) return;
+  const auto free_as = [this]<class T>() { delete reinterpret_cast<HeapOf<T>*>(heap_); };
+  switch (kind_) {
+    case Kind::kUncertain:
+      return free_as.operator()<model::Uncertain>();
+    case Kind::kString:
+      return free_as.operator()<std::string>();
+    case Kind::kList:
+      return FreeList();
+    case Kind::kRange:
+      return free_as.operator()<ValueRange>();
+    case Kind::kPlane:
+      return free_as.operator()<geom::Frame>();
+    case Kind::kElement:
+      return free_as.operator()<std::shared_ptr<const Element>>();
+    case Kind::kClosure:
+      return free_as.operator()<Closure>();
+    case Kind::kNone:
+    case Kind::kNumber:
+    case Kind::kBoolean:
+      return;
+  }
+}
+
+// Lists may nest deeper than the call stack: the items of a list that goes with this one move to
+// a heap-allocated stack first, so that each list that is deleted holds no list any more.
+void Value::FreeList() {
+  auto* list = reinterpret_cast<HeapOf<std::vector<Value>>*>(heap_);
+  std::vector<Value> pending = std::move(list->content);
+  delete list;
+  while (!pending.empty()) {
+    const Value item = std::move(pending.back());
+    pending.pop_back();
+    if (!item.is_list() || item.heap_->references > 1) continue;
+    auto& items = reinterpret_cast<HeapOf<std::vector<Value>>*>(item.heap_)->content;
+    std::move(items.begin(), items.end(), std::back_inserter(pending));
+    items.clear();
+  }
+}
+
+namespace {
+
+bool SameFrame(const geom::Frame& a, const geom::Frame& b) {
+  return a.origin == b.origin && a.x == b.x && a.y == b.y;
+}
+
+// Lists by their length alone: their items are compared by the caller.
+bool SameButForItems(const Value& a, const Value& b) {
+  if (a.kind() != b.kind() || a.dimension() != b.dimension()) return false;
+  switch (a.kind()) {
+    case Value::Kind::kNone:
+      return true;
+    case Value::Kind::kNumber:
+      return a.number() == b.number();
+    case Value::Kind::kBoolean:
+      return a.boolean() == b.boolean();
+    case Value::Kind::kUncertain:
+      return a.number() == b.number() && a.derivatives()->terms == b.derivatives()->terms;
+    case Value::Kind::kString:
+      return a.string() == b.string();
+    case Value::Kind::kList:
+      return a.list().size() == b.list().size();
+    case Value::Kind::kRange:
+      return a.range().from == b.range().from && a.range().to == b.range().to;
+    case Value::Kind::kPlane:
+      return SameFrame(a.plane(), b.plane());
+    case Value::Kind::kElement:
+      return a.element()->hash == b.element()->hash;
+    case Value::Kind::kClosure:
+      return a.closure().code == b.closure().code;
+  }
+  return false;
+}
+
+void AddNumber(Hasher& hasher, double number, Dimension dimension) {
+  hasher.Tag(dimension.base).Integer(dimension.exponent);
+  if (dimension == kLength) {
+    hasher.Length(number);
+  } else if (dimension == kAngle) {
+    hasher.Angle(number);
+  } else {
+    hasher.Ratio(number);
+  }
+}
+
+// As SameButForItems: a list adds its length alone.
+void AddButForItems(Hasher& hasher, const Value& value) {
+  hasher.Tag(static_cast<std::uint8_t>(value.kind()));
+  switch (value.kind()) {
+    case Value::Kind::kNone:
+      break;
+    case Value::Kind::kNumber:
+      AddNumber(hasher, value.number(), value.dimension());
+      break;
+    case Value::Kind::kBoolean:
+      hasher.Tag(value.boolean() ? 1 : 0);
+      break;
+    case Value::Kind::kUncertain:
+      AddNumber(hasher, value.number(), value.dimension());
+      hasher.Integer(static_cast<std::int64_t>(value.derivatives()->terms.size()));
+      for (const auto& [source, slope] : value.derivatives()->terms) {
+        hasher.Integer(source).Ratio(slope);
+      }
+      break;
+    case Value::Kind::kString:
+      hasher.Text(value.string());
+      break;
+    case Value::Kind::kList:
+      hasher.Integer(static_cast<std::int64_t>(value.list().size()));
+      break;
+    case Value::Kind::kRange:
+      AddNumber(hasher, value.range().from, value.dimension());
+      AddNumber(hasher, value.range().to, value.dimension());
+      break;
+    case Value::Kind::kPlane:
+      hasher.Point(value.plane().origin).Direction(value.plane().x).Direction(value.plane().y);
+      break;
+    case Value::Kind::kElement:
+      hasher.Hash(value.element()->hash);
+      break;
+    case Value::Kind::kClosure:
+      break;  // its code has no bytes that are the same in every run
+  }
+}
+
+}  // namespace
+
+bool Same(const Value& a, const Value& b) {
+  std::vector<std::pair<const Value*, const Value*>> pending = {{&a, &b}};
+  while (!pending.empty()) {
+    const auto [left, right] = pending.back();
+    pending.pop_back();
+    if (!SameButForItems(*left, *right)) return false;
+    if (!left->is_list()) continue;
+    for (std::size_t i = 0; i < left->list().size(); ++i) {
+      pending.emplace_back(&left->list()[i], &right->list()[i]);
+    }
+  }
+  return true;
+}
+
+void AddToHash(Hasher& hasher, const Value& value) {
+  std::vector<const Value*> pending = {&value};
+  while (!pending.empty()) {
+    const Value* next = pending.back();
+    pending.pop_back();
+    AddButForItems(hasher, *next);
+    if (!next->is_list()) continue;
+    for (auto item = next->list().rbegin(); item != next->list().rend(); ++item) {
+      pending.push_back(&*item);
+    }
+  }
+}
+
+}  // namespace tranos::model
