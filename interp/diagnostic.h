@@ -51,6 +51,8 @@ struct Diagnostic {
 class Diagnostics {
  public:
   void Add(Diagnostic diagnostic);
+  void Append(const Diagnostics& other);
+  void SortByPlace();  // by file and beginning; what begins together stays in order
   bool has_errors() const { return error_count_ > 0; }
   std::size_t error_count() const { return error_count_; }
   const std::vector<Diagnostic>& list() const { return list_; }
@@ -58,6 +60,7 @@ class Diagnostics {
  private:
   std::vector<Diagnostic> list_;
   std::size_t error_count_ = 0;
+  std::size_t warning_count_ = 0;
 };
 
 // As in LANGUAGE.md section 9, with source line and carets; control characters are shown escaped.

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -108,5 +109,8 @@ NumberLiteral NumberOf(std::string_view text);
 
 // The text that a kStringText stands for, escapes resolved.
 std::string UnescapeStringText(std::string_view raw);
+
+// A word's text in Unicode's form C: two spellings of an accented name are one name.
+std::string NormalWord(std::string_view word);
 
 }  // namespace tranos::interp
