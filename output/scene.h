@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <vector>
+
+#include "model/edit.h"
+#include "output/ray_scene.h"
+#include "output/result.h"
+#include "output/view.h"
+
+namespace tranos::output {
+
+using Shade = Eigen::Vector3f;  // red, green, blue of the screen, 0 to 1
+
+// A line of a drawing in picture space (output/view.h).
+struct Stroke {
+  std::vector<Eigen::Vector3f> vertices;
+  // Of an outline: for each of its segments the direction, one pixel long, in which the surface
+  // that it bounds ends. Otherwise empty.
+  std::vector<Eigen::Vector2f> outward;
+  Shade colour = Shade::Zero();
+  float opacity = 1;
+  float width_px = 1;
+  int linestyle = 0;
+};
+
+// What a picture shows, ready to be traced and drawn.
+struct Scene {
+  Camera camera;
+  std::vector<RaySurface> surfaces;    // in the order of elements
+  std::vector<Shade> surface_colours;  // of each surface
+  std::vector<Stroke> strokes;         // later ones over earlier ones
+  float nearest = 0, farthest = 0;     // z of what is nearest to the viewer, and farthest
+};
+
+// Everything on visible levels, from the request's view. In shaded pictures surfaces have no lines.
+Result<Scene> SceneOf(const model::RenderRequest& request, int threads);
+
+}  // namespace tranos::output

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "output/scene.h"
+
+namespace tranos::output {
+
+// The light of shaded pictures: from the upper left, in front of the picture. Faces are lit on both
+// sides.
+class Shader {
+ public:
+  Shader(const Scene& scene, const RayScene& rays, bool shadows);
+
+  // The colour of what a ray has met in lane `i` of a packet at (x, y).
+  Shade At(const RayPacket& packet, const HitPacket& hits, unsigned i) const;
+
+ private:
+  const Scene& scene_;
+  const RayScene& rays_;
+  bool shadows_;
+  std::vector<Eigen::Matrix3f> picture_from_normal_;  // of each surface
+};
+
+// The ground of a shaded picture at this share of its height, from the top.
+Shade GroundAt(float share);
+
+}  // namespace tranos::output
