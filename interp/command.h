@@ -27,6 +27,7 @@ struct Key {
   std::string_view standard = {};  // its value when not given, as text for help; "" if none
   int prompt = -1;                 // the question it may answer in place of a data point
   bool required = false;
+  bool list = false;       // a list of the type
 };
 
 // A question, answered by a data point.

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The only way outward. The app fills it in; tests give one in memory.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <string_view>
+#include <tl/expected.hpp>
+
+namespace tranos::interp {
+
+struct HostError {
+  enum Kind { kMissing, kOutside, kFailed } kind;
+  std::string detail;  // "no such file", "a symbolic link", …
+};
+
+struct Host {
+  // The bytes of a regular file below the script's folder or one allowed; never through a link.
+  std::function<tl::expected<std::string, HostError>(std::string_view path)> read;
+  // Shows a line of `print` as it happens.
+  std::function<void(std::string_view line)> print;
+};
+
+}  // namespace tranos::interp
