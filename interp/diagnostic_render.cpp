@@ -12,8 +12,8 @@ namespace tranos::interp {
 namespace {
 
 // A longer line is shown only around what is underlined.
-constexpr std::size_t kWidestLine = 160;
-constexpr std::size_t kColumnsBefore = 60;
+constexpr std::size_t kWidestLine = 120;
+constexpr std::size_t kColumnsBefore = 45;
 
 struct Colours {
   std::string_view severity, gutter, bold, off;

@@ -204,6 +204,7 @@ class Lexer {
     } else if (c == '#' && open_.empty()) {
       LexComment();
     } else if (c == '"') {
+      if (open_.empty()) first_of_string_ = out_.tokens.size();
       open_.push_back({TokenKind::kQuoteOpen, at_});
       EmitNext(TokenKind::kQuoteOpen, 1);
     } else if (!LexOperator()) {
@@ -504,18 +505,20 @@ class Lexer {
     ++at_;
   }
 
+  // Nothing of the string is left to the parser, which could only be misled by it.
   void ReportUnclosedString() {
-    const Open innermost = open_.back();
-    open_.clear();
-    if (innermost.kind == TokenKind::kQuoteOpen) {
-      Report(Code::kUnclosedString, innermost.begin, at_, "the string is not closed",
+    const std::uint32_t begin = open_[0].begin;
+    if (open_.size() == 1) {
+      Report(Code::kUnclosedString, begin, at_, "the string is not closed",
              "no `\"` follows on this line", "");
     } else {
-      Report(Code::kUnclosedString, innermost.begin, innermost.begin + 1,
-             "the value in the string is not closed", "no `}` follows on this line",
+      Report(Code::kUnclosedString, open_[1].begin, open_[1].begin + 1,
+             "the value in the string is not closed", "not closed on this line",
              "for a brace inside a string write {{");
     }
-    EmitNext(TokenKind::kBad, 0);
+    open_.clear();
+    out_.tokens.resize(first_of_string_);
+    Emit(TokenKind::kBad, begin);
   }
 
   std::string_view text_;
@@ -523,6 +526,7 @@ class Lexer {
   Diagnostics* diagnostics_;
   std::uint32_t at_ = 0;
   std::vector<Open> open_;
+  std::size_t first_of_string_ = 0;  // the token that opened the outermost string
   Lexed out_;
 };
 

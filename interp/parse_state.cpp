@@ -206,9 +206,18 @@ NodeId ParseState::FailHere(std::string_view expected, std::string help) {
                 "calls and indices touch: f(1), list[0]",
                 fmt::format("write `{}{}…`", TextOf(tokens_[at_ - 1]), bracket));
   }
+  if (at_ > 0 && EndsInPercent(tokens_[at_ - 1]) &&
+      (EndsOperand(Now().kind) || opens || At(TokenKind::kQuoteOpen))) {
+    return Fail(Code::kPercentOrRemainder, SpanOfNow(), DescribeNow() + " after a per cent", "",
+                "`%` that touches the number before it is per cent; the remainder is `5 % 3`");
+  }
   if (help.empty()) help = HelpForNow();
-  return Fail(Code::kUnexpectedToken, SpanOfNow(), fmt::format("{} cannot stand here", DescribeNow()),
+  return Fail(Code::kUnexpectedToken, SpanOfNow(), DescribeNow(),
               fmt::format("expected {}", expected), std::move(help));
+}
+
+bool ParseState::EndsInPercent(const Token& token) const {
+  return token.kind == TokenKind::kNumber && TextOf(token).ends_with('%');
 }
 
 NodeId ParseState::FailTooDeep() {
@@ -231,26 +240,36 @@ NodeId ParseState::FailUnclosed(const Token& open, std::string_view closing) {
 }
 
 std::string ParseState::DescribeNow() const {
-  if (At(TokenKind::kEnd)) return "the end of the file";
-  if (At(TokenKind::kNewline)) return "the end of the line";
-  if (At(TokenKind::kQuoteOpen)) return "a string";
-  if (At(TokenKind::kStringText)) return "the rest of the string";
-  return fmt::format("`{}`", TextOf(Now()).substr(0, 60));
+  if (At(TokenKind::kEnd)) return "the file ends too early";
+  if (At(TokenKind::kNewline)) return "the line ends too early";
+  if (At(TokenKind::kQuoteOpen)) return "a string cannot stand here";
+  return fmt::format("`{}` cannot stand here", TextOf(Now()).substr(0, 60));
 }
 
 std::string ParseState::HelpForNow() const {
   const bool starts_line = at_ == 0 || tokens_[at_ - 1].kind == TokenKind::kNewline;
-  if (At(TokenKind::kComma)) return "a point is given by its key: xy=1,2,3";
   if (At(Keyword::kThen)) return "`if` first in a statement takes a block: if … { … }";
   if (At(Keyword::kElse)) return "`else` stands on the line of the `}`";
   if (At(Keyword::kNot) || At(Keyword::kIf)) return "put that part in parentheses";
-  if (At(TokenKind::kDotDot) || At(TokenKind::kPlusMinus)) return "put one of the two in parentheses";
-  if (At(TokenKind::kAssign)) return "`==` compares; `=` follows a key or a name that is defined";
-  if (starts_line && IsBinarySymbol(Now().kind)) {
-    return "an expression goes on in the next line if the operator ends the line before";
+  switch (Now().kind) {
+    case TokenKind::kComma:
+      return "a point is given by its key: xy=1,2,3";
+    case TokenKind::kDotDot:
+    case TokenKind::kPlusMinus:
+      return "put one of the two in parentheses";
+    case TokenKind::kAssign:
+    case TokenKind::kEqual:
+      return "`==` compares; a single `=` gives a value to a key or a name";
+    case TokenKind::kLeftBrace:
+      return "this statement takes no block";
+    case TokenKind::kLeftParen:
+      return "a command is given its values by keys: key=…";
+    default:
+      break;
   }
-  if (IsBinarySymbol(Now().kind)) return "an expression stands after a key: key=…";
-  return "";
+  if (!IsBinarySymbol(Now().kind)) return "";
+  if (starts_line) return "a line goes on in the next one if it ends in the operator";
+  return "an expression stands after a key: key=…";
 }
 
 bool ParseState::LineStartsStatement(std::size_t first) const {

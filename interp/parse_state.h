@@ -70,6 +70,7 @@ class ParseState {
   void Report(Code code, Span span, std::string message, std::string label, std::string help);
   NodeId Fail(Code code, Span span, std::string message, std::string label, std::string help);
   NodeId FailHere(std::string_view expected, std::string help = "");
+  bool EndsInPercent(const Token& token) const;
   NodeId FailTooDeep();
   NodeId FailUnclosed(const Token& open, std::string_view closing);
   Span SpanOfNow() const;
