@@ -6,7 +6,6 @@
 
 #include <bit>
 #include <cmath>
-#include <cstring>
 #include <limits>
 
 namespace tranos::model {
@@ -20,7 +19,8 @@ constexpr double kStepsPerUnit = 0x1p40;  // of radians and ratios
 // grid anyway, and its own bits stand for it; they are larger than any integer below the bound.
 std::int64_t OnGrid(double number, double steps) {
   const double scaled = number * steps;
-  if (std::abs(scaled) < 0x1p61) return std::llrint(scaled);
+  if (std::abs(scaled) < 0x1p61)
+    return static_cast<std::int64_t>(scaled + std::copysign(0.5, scaled));
   if (std::isnan(number)) return std::numeric_limits<std::int64_t>::min();
   const auto bits = std::bit_cast<std::int64_t>(std::abs(number));
   return number < 0 ? -bits : bits;
@@ -47,26 +47,10 @@ std::string Hex(const Hash128& hash) {
   return text;
 }
 
-void Hasher::Bytes(const void* data, std::size_t size) {
-  if (large_.empty()) {
-    if (size_ + size <= sizeof small_) {
-      std::memcpy(small_ + size_, data, size);
-      size_ += size;
-      return;
-    }
-    large_.assign(small_, small_ + size_);
-  }
+Hasher& Hasher::MoreBytes(const void* data, std::size_t size) {
+  if (large_.empty()) large_.assign(small_, small_ + size_);
   const auto* bytes = static_cast<const std::uint8_t*>(data);
   large_.insert(large_.end(), bytes, bytes + size);
-}
-
-Hasher& Hasher::Tag(std::uint8_t tag) {
-  Bytes(&tag, sizeof tag);
-  return *this;
-}
-
-Hasher& Hasher::Integer(std::int64_t value) {
-  Bytes(&value, sizeof value);
   return *this;
 }
 
@@ -78,24 +62,23 @@ Hasher& Hasher::Point(const geom::Vec3& metres) {
   const std::int64_t grid[] = {OnGrid(metres.x(), kStepsPerMetre),
                                OnGrid(metres.y(), kStepsPerMetre),
                                OnGrid(metres.z(), kStepsPerMetre)};
-  Bytes(grid, sizeof grid);
-  return *this;
+  return Bytes(grid, sizeof grid);
 }
 
 Hasher& Hasher::Direction(const geom::Vec3& unit) {
-  return Ratio(unit.x()).Ratio(unit.y()).Ratio(unit.z());
+  const std::int64_t grid[] = {OnGrid(unit.x(), kStepsPerUnit), OnGrid(unit.y(), kStepsPerUnit),
+                               OnGrid(unit.z(), kStepsPerUnit)};
+  return Bytes(grid, sizeof grid);
 }
 
 Hasher& Hasher::Text(std::string_view text) {
   Integer(static_cast<std::int64_t>(text.size()));
-  Bytes(text.data(), text.size());
-  return *this;
+  return Bytes(text.data(), text.size());
 }
 
 Hasher& Hasher::Hash(const Hash128& hash) {
   const std::uint64_t words[] = {hash.high, hash.low};
-  Bytes(words, sizeof words);
-  return *this;
+  return Bytes(words, sizeof words);
 }
 
 Hash128 Hasher::Finish() const {

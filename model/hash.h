@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <cstring>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -26,8 +27,8 @@ std::string Hex(const Hash128& hash);  // 32 lower-case digits
 // Gathers canonical bytes. Numbers that are no finite double hash as themselves, not as a crash.
 class Hasher {
  public:
-  Hasher& Tag(std::uint8_t tag);
-  Hasher& Integer(std::int64_t value);
+  Hasher& Tag(std::uint8_t tag) { return Bytes(&tag, sizeof tag); }
+  Hasher& Integer(std::int64_t value) { return Bytes(&value, sizeof value); }
   Hasher& Length(double metres);
   Hasher& Angle(double radians);
   Hasher& Ratio(double number);  // weights, knots, direction cosines, scales: to 2⁻⁴⁰
@@ -38,7 +39,14 @@ class Hasher {
   Hash128 Finish() const;
 
  private:
-  void Bytes(const void* data, std::size_t size);
+  Hasher& Bytes(const void* data, std::size_t size) {
+    if (!large_.empty() || size_ + size > sizeof small_) return MoreBytes(data, size);
+    std::memcpy(small_ + size_, data, size);
+    size_ += size;
+    return *this;
+  }
+  Hasher& MoreBytes(const void* data, std::size_t size);
+
   std::uint8_t small_[256];
   std::size_t size_ = 0;
   std::vector<std::uint8_t> large_;  // used once small_ is full

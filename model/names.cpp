@@ -27,7 +27,7 @@ void AddWeighed(Hash128& sum, std::uint64_t weight, const Hash128& content) {
 
 const NameBinding& Names::operator[](std::size_t index) const {
   static const NameBinding kNotGiven;
-  return index < size() ? table_->bindings[index] : kNotGiven;
+  return index < size() && table_->bindings[index] ? *table_->bindings[index] : kNotGiven;
 }
 
 Names::Table& Names::Own() {
@@ -62,6 +62,16 @@ void Names::Table::Weigh(ElementId id, std::uint64_t weight, const Entries& entr
   weights.Set(slot, weights[slot] + weight);
 }
 
+void Names::Table::Put(std::size_t index, NameBinding binding) {
+  auto pointer = std::make_shared<const NameBinding>(std::move(binding));
+  while (bindings.size() < index) bindings.Append(nullptr);
+  if (bindings.size() == index) {
+    bindings.Append(std::move(pointer));
+  } else {
+    bindings.Set(index, std::move(pointer));
+  }
+}
+
 void Names::Bind(std::size_t index, ElementId id, const Entries& entries) {
   NameBinding binding = (*this)[index];
   Table& table = Own();
@@ -69,12 +79,7 @@ void Names::Bind(std::size_t index, ElementId id, const Entries& entries) {
   table.Weigh(id, WeightOf(index, binding.ids.size()), entries);
   binding.ids.Append(id);
   binding.given = true;
-  while (table.bindings.size() < index) table.bindings.Append({});
-  if (table.bindings.size() == index) {
-    table.bindings.Append(std::move(binding));
-  } else {
-    table.bindings.Set(index, std::move(binding));
-  }
+  table.Put(index, std::move(binding));
 }
 
 void Names::Set(std::size_t index, NameBinding binding, const Entries& entries) {
@@ -88,16 +93,15 @@ void Names::Set(std::size_t index, NameBinding binding, const Entries& entries) 
   const std::uint64_t given = WeightOf(index, kGivenPosition);
   if (before.given) AddWeighed(table.hash, 0 - given, kGivenContent);
   if (binding.given) AddWeighed(table.hash, given, kGivenContent);
-  while (table.bindings.size() <= index) table.bindings.Append({});
-  table.bindings.Set(index, std::move(binding));
+  table.Put(index, std::move(binding));
 }
 
 void Names::Rehash(const Entries& entries) {
   if (!table_) return;
-  const PersistentVector<NameBinding> bindings = table_->bindings;
+  const PersistentVector<BindingPtr> bindings = table_->bindings;
   table_ = {};
   for (std::size_t index = 0; index < bindings.size(); ++index) {
-    Set(index, bindings[index], entries);
+    if (bindings[index]) Set(index, *bindings[index], entries);
   }
 }
 

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 
 #include "model/counted_pointer.h"
 #include "model/entry.h"
@@ -38,12 +39,15 @@ class Names {
  private:
   // The hash is the sum over all bound elements of weight × content, word by word: linear in the
   // content, so that one weight for each element tells what a change of it does to the sum.
+  // One word in the vector, so that naming copies little of it.
+  using BindingPtr = std::shared_ptr<const NameBinding>;
   struct Table {
     OwnerCount owners;
-    PersistentVector<NameBinding> bindings;
+    PersistentVector<BindingPtr> bindings;  // null: not given
     ElementId first_weighed = 0;
     PersistentVector<std::uint64_t> weights;  // by id, from first_weighed on
     Hash128 hash;
+    void Put(std::size_t index, NameBinding binding);
     void Weigh(ElementId id, std::uint64_t weight, const Entries& entries);
     void MakeRoomFor(ElementId id);
     friend void Destroy(Table* table) { delete table; }
