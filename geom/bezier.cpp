@@ -76,20 +76,26 @@ int KnotSpanAt(const std::vector<double>& knots, int degree, double u) {
   return k;
 }
 
-BezierPoles BezierOver(const BsplineCurve& c, int knot_index, double a, double b) {
-  const int p = c.degree;
-  BezierPoles control(4, p + 1), out(4, p + 1), work(4, p + 1);
-  for (int j = 0; j <= p; ++j) {
-    const int i = knot_index - p + j;
+BezierPoles ControlOf(const BsplineCurve& c, int knot_index) {
+  BezierPoles control(4, c.degree + 1);
+  for (int j = 0; j <= c.degree; ++j) {
+    const int i = knot_index - c.degree + j;
     control.col(j) = Homogeneous(c.poles[i], c.weights.empty() ? 1.0 : c.weights[i]);
   }
+  return control;
+}
+
+BezierPoles BezierOver(const std::vector<double>& knots, int knot_index, const BezierPoles& control,
+                       double a, double b) {
+  const int p = DegreeOf(control);
+  BezierPoles out(4, p + 1), work(4, p + 1);
   // Pole m is the blossom with b taken m times and a taken p - m times.
   for (int m = 0; m <= p; ++m) {
     work = control;
     for (int r = 1; r <= p; ++r) {
       const double argument = r <= p - m ? a : b;
       for (int j = p; j >= r; --j) {
-        const double low = c.knots[knot_index - p + j], high = c.knots[knot_index + j - r + 1];
+        const double low = knots[knot_index - p + j], high = knots[knot_index + j - r + 1];
         const double part = (argument - low) / (high - low);
         work.col(j) = (1 - part) * work.col(j - 1) + part * work.col(j);
       }
@@ -107,7 +113,7 @@ std::vector<BezierSpan> BezierSpansOf(const BsplineCurve& c) {
   for (int k = c.degree; k < last; ++k) {
     if (!(c.knots[k] < c.knots[k + 1])) continue;
     spans.push_back({(c.knots[k] - first) / range, (c.knots[k + 1] - first) / range,
-                     BezierOver(c, k, c.knots[k], c.knots[k + 1])});
+                     BezierOver(c.knots, k, ControlOf(c, k), c.knots[k], c.knots[k + 1])});
   }
   return spans;
 }
@@ -117,7 +123,7 @@ BezierSpan BezierSpanAt(const BsplineCurve& c, double t) {
   const double first = c.knots[c.degree], range = c.knots[last] - first;
   const int k = KnotSpanAt(c.knots, c.degree, first + t * range);
   return {(c.knots[k] - first) / range, (c.knots[k + 1] - first) / range,
-          BezierOver(c, k, c.knots[k], c.knots[k + 1])};
+          BezierOver(c.knots, k, ControlOf(c, k), c.knots[k], c.knots[k + 1])};
 }
 
 std::vector<BezierSpan> BezierSpansOf(const Arc& arc) {

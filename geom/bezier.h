@@ -53,8 +53,11 @@ bool HasSoundShape(const BsplineCurve&);
 std::vector<BezierSpan> BezierSpansOf(const BsplineCurve&);
 // The one span with the parameter t.
 BezierSpan BezierSpanAt(const BsplineCurve&, double t);
-// Poles over a part [a, b] (knots' scale) inside the knot span with this index.
-BezierPoles BezierOver(const BsplineCurve&, int knot_index, double a, double b);
+// The poles that have influence on the knot span with this index.
+BezierPoles ControlOf(const BsplineCurve&, int knot_index);
+// Bézier poles over [a, b] (knots' scale) inside the knot span whose poles are `control`.
+BezierPoles BezierOver(const std::vector<double>& knots, int knot_index, const BezierPoles& control,
+                       double a, double b);
 // The index k of the non-empty knot span with knots[k] ≤ u < knots[k + 1]; the last one at the end.
 int KnotSpanAt(const std::vector<double>& knots, int degree, double u);
 

@@ -38,6 +38,9 @@ Result<Surface> Revolution(const Curve& profile, const Vec3& axis_point, const V
                            double angle_rad);
 Result<Surface> Ruled(const Curve& from, const Curve& to);
 
+// Whether the surface is sound: numbers finite, counts, degrees and knots fitting, weights positive,
+// a patch's corners meeting. Of a surface that is not, measures are zero and boxes empty.
+tl::expected<void, Error> Check(const Surface&);
 Vec3 PointAt(const Surface&, double u, double v);
 Vec3 NormalAt(const Surface&, double u, double v);  // unit; zero where the surface is singular
 bool IsClosed(const Surface&);                      // encloses a volume by itself (a torus, say)
@@ -52,7 +55,8 @@ bool HasExactBspline(const Surface&);
 
 // Facets for output. Vertices on a crease are doubled, so that normals stay sharp; positions of
 // doubled vertices are equal to the bit, so there are no cracks. `edges` are the borders and creases,
-// as pairs of positions' indices, for wireframe and hidden-line pictures.
+// as pairs of positions' indices, for wireframe and hidden-line pictures. kTooLarge above ten million
+// triangles.
 struct Mesh {
   std::vector<Vec3> positions;
   std::vector<Vec3> normals;
