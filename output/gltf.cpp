@@ -1,12 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "output/gltf.h"
 
-#include <fstream>  // used by the next without being included there
-
-#define TINYGLTF_IMPLEMENTATION
-#define TINYGLTF_NO_STB_IMAGE
-#define TINYGLTF_NO_STB_IMAGE_WRITE
-#define TINYGLTF_NO_FS
 #include <tiny_gltf.h>
 
 #include <Eigen/SVD>
