@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The families of commands; interp/command_table.cpp puts them together.
+#pragma once
+
+#include <span>
+
+#include "interp/command.h"
+
+namespace tranos::interp {
+
+std::span<const Command> PlaceCommands();
+std::span<const Command> ChooseCommands();
+std::span<const Command> CreateCommands();
+std::span<const Command> TransformCommands();  // copy, move, rotate, mirror, scale
+std::span<const Command> ArrayCommands();
+std::span<const Command> EditCommands();  // delete, drop, modify
+std::span<const Command> ConstructCommands();
+std::span<const Command> PlaneCommands();
+std::span<const Command> ViewCommands();    // set view, view, level
+std::span<const Command> OutputCommands();  // render, export, print
+std::span<const Command> HistoryCommands();
+// Those that the language names and that are not carried out yet.
+std::span<const Command> LaterCommands();
+
+}  // namespace tranos::interp

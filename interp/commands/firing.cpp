@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "interp/commands/firing.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace tranos::interp {
+
+using model::ElementPtr;
+using model::State;
+using model::Value;
+
+namespace {
+
+Code CodeOf(geom::ErrorCode code) {
+  switch (code) {
+    case geom::ErrorCode::kDegenerate:
+      return Code::kDegenerate;
+    case geom::ErrorCode::kNotClosed:
+      return Code::kNotClosed;
+    case geom::ErrorCode::kNotPlanar:
+      return Code::kNotPlanar;
+    case geom::ErrorCode::kDoNotMeet:
+      return Code::kDoNotMeet;
+    case geom::ErrorCode::kNotAGraph:
+      return Code::kNotAGraph;
+    case geom::ErrorCode::kOutOfRange:
+      return Code::kOutOfRange;
+    case geom::ErrorCode::kTooLarge:
+      return Code::kTooManyFacets;
+  }
+  return Code::kDegenerate;
+}
+
+bool IsFar(double length_m) { return !(std::abs(length_m) <= kFarthest_m); }
+
+bool IsFar(const Value& value) {
+  if (value.is_number()) return value.dimension() == model::kLength && IsFar(value.number());
+  if (!value.is_list()) return false;
+  for (const Value& item : value.list()) {
+    if (IsFar(item)) return true;
+  }
+  return false;
+}
+
+CommandError FarError(Where where) {
+  return {.code = Code::kOutOfRange,
+          .message = "this lies more than a million kilometres away",
+          .label = "at most 1e9 m",
+          .where = where};
+}
+
+}  // namespace
+
+CommandError FromGeom(const geom::Error& error, std::string_view what, Where where) {
+  if (where.kind == Where::kCommand && error.part >= 0) where = {Where::kChosen, error.part, {}};
+  return {.code = CodeOf(error.code),
+          .message = fmt::format("{} cannot be made: {}", what, error.detail),
+          .where = where};
+}
+
+model::ElementPtr NewElement(const State& state, model::Geometry geometry) {
+  const model::Settings& settings = *state.drawing.settings;
+  return model::MakeElement(model::kNoElement, std::move(geometry), settings.attributes, nullptr,
+                            settings.tolerance);
+}
+
+model::Geometry CurveGeometry(geom::Curve curve) {
+  return std::make_shared<const geom::Curve>(std::move(curve));
+}
+
+model::Geometry SurfaceGeometry(geom::Surface surface) {
+  return std::make_shared<const geom::Surface>(std::move(surface));
+}
+
+std::optional<CommandError> TooFar(const Answers& answers) {
+  for (std::size_t i = 0; i < answers.points.size(); ++i) {
+    if (IsFar(answers.points[i].cwiseAbs().maxCoeff())) {
+      return FarError({Where::kPoint, static_cast<int>(i), {}});
+    }
+  }
+  for (const auto& [key, value] : answers.keys) {
+    if (IsFar(value)) return FarError({Where::kKey, 0, key});
+  }
+  return std::nullopt;
+}
+
+std::optional<CommandError> NothingChosen(const Answers& answers) {
+  if (!answers.chosen.empty()) return std::nullopt;
+  return CommandError{.code = Code::kNothingChosen,
+                      .message = "nothing is chosen",
+                      .help = "choose first (`choose element;xy=…`), or give `of=`"};
+}
+
+CommandResult Make(const State& state, model::Geometry geometry) {
+  Fired fired;
+  fired.edit.added.push_back(NewElement(state, std::move(geometry)));
+  return fired;
+}
+
+CommandResult MakeFromChosen(const State& state, const Answers& answers,
+                             std::vector<model::Geometry> geometries) {
+  Fired fired;
+  for (model::Geometry& geometry : geometries) {
+    fired.edit.added.push_back(NewElement(state, std::move(geometry)));
+  }
+  Consume(answers, &fired.edit);
+  return fired;
+}
+
+void Consume(const Answers& answers, model::Edit* edit) {
+  if (answers.Flag("keep")) return;
+  for (const ElementPtr& element : answers.chosen) edit->consumed.push_back(element->id);
+}
+
+tl::expected<std::vector<geom::Curve>, CommandError> CurvesOf(const Answers& answers,
+                                                              std::string_view what) {
+  std::vector<geom::Curve> curves;
+  for (std::size_t i = 0; i < answers.chosen.size(); ++i) {
+    const model::Element& element = *answers.chosen[i];
+    const auto* curve = std::get_if<model::CurvePtr>(&element.geometry);
+    if (!curve) {
+      return Fail({.code = Code::kWrongElement,
+                   .message = fmt::format("{} is made from curves, and this is {}", what,
+                                          NameForMessage(element)),
+                   .where = {Where::kChosen, static_cast<int>(i), {}}});
+    }
+    curves.push_back(**curve);
+  }
+  return curves;
+}
+
+std::string NameForMessage(const model::Element& element) {
+  const std::string type = model::TypeOf(element);
+  const std::string_view name = element.name_or_empty();
+  if (!name.empty()) return fmt::format("the {} `{}`", type, name);
+  const bool vowel =
+      std::string_view("aeio").find(type.empty() ? 'x' : type[0]) != std::string::npos;
+  return fmt::format("{} {}", vowel ? "an" : "a", type);
+}
+
+std::string StringAnswer(const Answers& answers, std::string_view key) {
+  return answers.has_string ? answers.string : answers.Text(key);
+}
+
+std::string InWords(double length_m, const model::Settings& settings) {
+  struct Unit {
+    std::string_view name;
+    double metres;
+  };
+  constexpr Unit kUnits[] = {
+      {"mm", 0.001}, {"cm", 0.01}, {"km", 1000}, {"ft", 0.3048}, {"in", 0.0254}};
+  for (const Unit& unit : kUnits) {
+    if (unit.name == settings.unit)
+      return fmt::format("{:.4g} {}", length_m / unit.metres, unit.name);
+  }
+  return fmt::format("{:.4g} m", length_m);
+}
+
+}  // namespace tranos::interp

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Commands that belong to the language and are not carried out yet. They are known by their words,
+// so that a script that uses one is told so.
+#include "interp/commands/families.h"
+
+namespace tranos::interp {
+
+namespace {
+
+// A row's only example is its words, which give E0001.
+struct Later {
+  std::string_view words, family, summary;
+  Example example;
+};
+
+constexpr Later Row(std::string_view words, std::string_view family, std::string_view summary) {
+  return {words, family, summary, {words, "E0001"}};
+}
+
+constexpr Later kLater[] = {
+    Row("place arc tangent", "place",
+        "A circular arc that goes on smoothly from the end of a curve."),
+    Row("place ellipse", "place", "An ellipse by its centre and two half axes."),
+    Row("place polygon", "place", "A regular polygon about a centre."),
+    Row("place curve", "place", "A smooth curve by its poles or through points."),
+    Row("place dimension", "place", "A measure between two points, with its number."),
+    Row("place slab", "place", "A rectangular block with a thickness."),
+    Row("place wedge", "place", "A slab cut along a diagonal."),
+    Row("place cone", "place", "A cone or a frustum about an axis."),
+    Row("place cylinder", "place", "A cylinder about an axis."),
+    Row("place sphere", "place", "A ball about a centre."),
+    Row("place torus", "place", "A ring about an axis."),
+    Row("place wall", "place", "A wall of a thickness and a height along a line."),
+    Row("place camera", "photograph", "A camera whose parameters are stated."),
+    Row("create region", "create", "A face from closed planar outlines, with holes."),
+    Row("offset", "manipulate", "A parallel curve at a distance."),
+    Row("trim", "manipulate", "Cuts curves off where others cross them."),
+    Row("extend", "manipulate", "Lengthens curves to where they meet others."),
+    Row("divide", "manipulate", "Cuts a curve into parts."),
+    Row("fillet", "manipulate", "Rounds a corner with an arc."),
+    Row("chamfer", "manipulate", "Cuts a corner off with a line."),
+    Row("construct surface tube", "construct", "A tube of a radius along a path."),
+    Row("construct surface loft", "construct", "A surface through a row of profiles."),
+    Row("construct surface section", "construct", "The curves in which a plane cuts a surface."),
+    Row("construct solid projection", "construct",
+        "A solid by projecting an outline along a line."),
+    Row("construct solid revolution", "construct", "A solid by turning an outline about an axis."),
+    Row("construct solid sweep", "construct",
+        "A solid by carrying a profile along a path, mitred at its corners."),
+    Row("construct solid loft", "construct", "A solid through a row of outlines."),
+    Row("construct solid thicken", "construct", "A solid of a thickness from a surface."),
+    Row("construct solid union", "construct", "One solid from several."),
+    Row("construct solid difference", "construct", "A solid less others."),
+    Row("construct solid intersection", "construct", "What solids have in common."),
+    Row("construct solid from surfaces", "construct", "A solid from the surfaces that enclose it."),
+    Row("construct facade", "construct", "A vertical plane for drawing through the photograph."),
+    Row("construct symmetric", "construct", "The other half of a symmetric building."),
+    Row("construct orthophoto", "construct", "The photograph of a facade, seen squarely."),
+    Row("construct section", "construct", "A drawing of the model cut by a plane."),
+    Row("attach photo", "photograph",
+        "Brings in a photograph with the format of its negative or sensor."),
+    Row("attach drawing", "photograph",
+        "Brings in a drawing as a reference: DXF, or an image with a scale."),
+    Row("trace edge", "photograph",
+        "The image line of an edge: along an axis, at a known place, or of an element."),
+    Row("trace point", "photograph", "The image of a point whose place is known."),
+    Row("trace rectangle", "photograph", "The image of a rectangle of known sides on a facade."),
+    Row("trace equal", "photograph", "The image of two orthogonal edges of equal length."),
+    Row("trace ratio", "photograph",
+        "The image of two orthogonal edges whose lengths have a known ratio."),
+    Row("trace circle", "photograph", "The image of a circle on a facade."),
+    Row("detect edges", "photograph", "Proposes the image lines of a photograph's edges."),
+    Row("prior", "photograph", "States what is assumed of a camera before the data speak."),
+    Row("calibrate", "photograph", "Finds the camera, and the unknowns, from what was traced."),
+    Row("recover camera", "photograph", "Finds the camera's pose from a calibrated photograph."),
+    Row("recover facade", "photograph", "Finds a facade perpendicular to a known one."),
+    Row("step camera", "photograph",
+        "Moves one parameter of a camera by a step and reports the penalty."),
+    Row("set camera", "set", "Makes a photograph's camera the one that dots are drawn through."),
+    Row("set facade", "set", "Makes a facade the active plane, onto which dots are projected."),
+    Row("report camera", "photograph",
+        "Prints a camera's parameters, pose, residuals and deviations."),
+    Row("render photo", "photograph", "Makes a photograph of the model as a camera sees it."),
+    Row("view camera", "view", "The view through a photograph's camera."),
+    Row("plot", "output", "Draws a sheet at a scale."),
+    Row("highlight", "output", "Shows elements in a colour that stands out, for debugging."),
+};
+
+std::vector<Command> Rows() {
+  std::vector<Command> rows;
+  for (const Later& later : kLater) {
+    rows.push_back({.words = later.words,
+                    .family = later.family,
+                    .summary = later.summary,
+                    .examples = std::span(&later.example, 1)});
+  }
+  return rows;
+}
+
+}  // namespace
+
+std::span<const Command> LaterCommands() {
+  static const std::vector<Command> rows = Rows();
+  return rows;
+}
+
+}  // namespace tranos::interp
