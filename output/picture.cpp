@@ -44,18 +44,24 @@ void ShadeBlock(const Ingredients& ingredients, Tile& tile, int left, int top) {
   const float x0 = static_cast<float>(tile.left_px) - 0.5f * static_cast<float>(camera.width_px);
   const float y0 = 0.5f * static_cast<float>(camera.height_px) - static_cast<float>(tile.top_px);
   RayPacket packet;
-  packet.from = ingredients.scene.nearest + 10;
+  packet.z.fill(ingredients.scene.nearest + 10);
   for (int i = 0; i < kPacket; ++i) {
     packet.x[i] = x0 + sample_px * (static_cast<float>(left + i % kBlock) + 0.5f);
     packet.y[i] = y0 - sample_px * (static_cast<float>(top + i / kBlock) + 0.5f);
   }
   const HitPacket hits = ingredients.rays->FirstHits(packet);
-  for (int i = 0; i < kPacket; ++i) {
-    if (hits.surface[i] == kNothing) continue;
-    const std::size_t row = static_cast<std::size_t>(top + i / kBlock) * tile.side();
-    tile.samples[row + left + i % kBlock] =
-        ingredients.shader->At(packet, hits, static_cast<unsigned>(i));
+  if (std::all_of(hits.surface.begin(), hits.surface.end(),
+                  [](std::uint32_t surface) { return surface == kNothing; })) {
+    return;
   }
+  const auto sample = [&](int i) -> Shade& {
+    return tile
+        .samples[static_cast<std::size_t>(top + i / kBlock) * tile.side() + left + i % kBlock];
+  };
+  ShadePacket shades;
+  for (int i = 0; i < kPacket; ++i) shades[i] = sample(i);
+  ingredients.shader->Apply(packet, hits, shades);
+  for (int i = 0; i < kPacket; ++i) sample(i) = shades[i];
 }
 
 std::uint8_t Quantized(float value) {

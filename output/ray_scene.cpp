@@ -3,6 +3,7 @@
 
 #include <embree3/rtcore.h>
 
+#include <algorithm>
 #include <limits>
 #include <unordered_map>
 #include <utility>
@@ -95,6 +96,23 @@ void AttachInstance(RTCDevice device, RTCScene scene, RTCScene part, const RaySu
   rtcAttachGeometryByID(scene, shape.handle, index);
 }
 
+void FillRays(const RayPacket& rays, const Eigen::Vector3f& direction, RTCRay16& query) {
+  for (unsigned i = 0; i < kPacket; ++i) {
+    query.org_x[i] = rays.x[i];
+    query.org_y[i] = rays.y[i];
+    query.org_z[i] = rays.z[i];
+    query.dir_x[i] = direction.x();
+    query.dir_y[i] = direction.y();
+    query.dir_z[i] = direction.z();
+    query.tnear[i] = 0;
+    query.tfar[i] = std::numeric_limits<float>::infinity();
+    query.time[i] = 0;
+    query.mask[i] = 0xffffffff;
+    query.id[i] = i;
+    query.flags[i] = 0;
+  }
+}
+
 RTCScene NewTree(RTCDevice device) {
   const RTCScene scene = rtcNewScene(device);
   rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
@@ -147,24 +165,11 @@ HitPacket RayScene::FirstHits(const RayPacket& rays) const {
   context.base.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
   context.depth.fill(-1);
   RTCRayHit16 query;
+  FillRays(rays, -Eigen::Vector3f::UnitZ(), query.ray);
   alignas(64) std::array<int, kPacket> valid;
-  for (unsigned i = 0; i < kPacket; ++i) {
-    valid[i] = -1;
-    query.ray.org_x[i] = rays.x[i];
-    query.ray.org_y[i] = rays.y[i];
-    query.ray.org_z[i] = rays.from;
-    query.ray.dir_x[i] = 0;
-    query.ray.dir_y[i] = 0;
-    query.ray.dir_z[i] = -1;
-    query.ray.tnear[i] = 0;
-    query.ray.tfar[i] = std::numeric_limits<float>::infinity();
-    query.ray.time[i] = 0;
-    query.ray.mask[i] = 0xffffffff;
-    query.ray.id[i] = i;
-    query.ray.flags[i] = 0;
-    query.hit.geomID[i] = kNone;
-    query.hit.instID[0][i] = kNone;
-  }
+  valid.fill(-1);
+  std::fill_n(query.hit.geomID, kPacket, kNone);
+  std::fill_n(query.hit.instID[0], kPacket, kNone);
   rtcIntersect16(valid.data(), trees_->world.handle, &context.base, &query);
   HitPacket hits;
   for (unsigned i = 0; i < kPacket; ++i) {
@@ -174,9 +179,22 @@ HitPacket RayScene::FirstHits(const RayPacket& rays) const {
     hits.triangle[i] = query.hit.primID[i];
     hits.u[i] = query.hit.u[i];
     hits.v[i] = query.hit.v[i];
-    hits.z[i] = rays.from - query.ray.tfar[i];
+    hits.z[i] = rays.z[i] - query.ray.tfar[i];
   }
   return hits;
+}
+
+void RayScene::DropOccluded(const RayPacket& rays, const Eigen::Vector3f& direction,
+                            LanePacket& lanes) const {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  RTCRay16 query;
+  FillRays(rays, direction, query);
+  alignas(64) std::array<int, kPacket> valid;
+  for (unsigned i = 0; i < kPacket; ++i) valid[i] = lanes[i] ? -1 : 0;
+  rtcOccluded16(valid.data(), trees_->world.handle, &context, &query);
+  for (unsigned i = 0; i < kPacket; ++i) lanes[i] = lanes[i] && query.tfar[i] >= 0;
 }
 
 bool RayScene::Occluded(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction) const {

@@ -24,11 +24,11 @@ struct RaySurface {
 
 inline constexpr int kPacket = 16;  // rays traced at once
 
-// Parallel rays along −z from z = `from`, one at each (x, y).
+// Where rays start.
 struct RayPacket {
-  alignas(64) std::array<float, kPacket> x, y;
-  float from = 0;
+  alignas(64) std::array<float, kPacket> x{}, y{}, z{};
 };
+using LanePacket = std::array<bool, kPacket>;
 // What they meet first: the surface's index (kNothing: none), the triangle's, the weights u and v
 // of its second and third corner, and the depth.
 inline constexpr std::uint32_t kNothing = 0xffffffff;
@@ -44,7 +44,11 @@ class RayScene {
   // An error if the ray tracer finds no memory.
   static Result<RayScene> Of(const std::vector<RaySurface>& surfaces);
 
+  // What rays along −z meet.
   HitPacket FirstHits(const RayPacket& rays) const;
+  // Takes those out of `lanes` whose ray in this direction meets anything.
+  void DropOccluded(const RayPacket& rays, const Eigen::Vector3f& direction,
+                    LanePacket& lanes) const;
   // Whether anything lies beyond `origin` in this direction.
   bool Occluded(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction) const;
 

@@ -12,7 +12,10 @@ using Eigen::Vector3f;
 // Directions towards the lights, as the viewer sees them: x right, y up, z to the viewer.
 const Vector3f kKey = Vector3f(-0.62f, 0.58f, 0.53f).normalized();
 const Vector3f kFill = Vector3f(0.75f, -0.05f, 0.66f).normalized();
-constexpr float kAmbient = 0.30f, kKeyShare = 0.62f, kFillShare = 0.16f, kGloss = 0.10f;
+const Vector3f kHalfway = (kKey + Vector3f::UnitZ()).normalized();
+constexpr float kAmbient = 0.32f, kKeyShare = 0.64f, kFillShare = 0.18f, kGloss = 0.08f;
+constexpr float kShadowShare = 0.25f;  // of the key light that is left in shadow
+constexpr float kShadowOffset_px = 1.5f;
 
 float PowerOf32(float x) {
   for (int i = 0; i < 5; ++i) x *= x;
@@ -31,27 +34,44 @@ Shader::Shader(const Scene& scene, const RayScene& rays, bool shadows)
   }
 }
 
-Shade Shader::At(const RayPacket& packet, const HitPacket& hits, unsigned i) const {
+Vector3f Shader::NormalAt(const HitPacket& hits, unsigned i) const {
   const std::uint32_t index = hits.surface[i];
   const RayMesh& mesh = *scene_.surfaces[index].mesh;
   const auto& corners = mesh.triangles[hits.triangle[i]];
-  const auto normal_at = [&](std::size_t k) {
+  const auto at = [&](std::size_t k) {
     return Eigen::Map<const Vector3f>(mesh.normals[corners[k]].data());
   };
   const float u = hits.u[i], v = hits.v[i];
-  Vector3f normal = picture_from_normal_[index] *
-                    ((1 - u - v) * normal_at(0) + u * normal_at(1) + v * normal_at(2));
-  normal /= std::max(normal.norm(), 1e-20f);
-  if (normal.z() < 0) normal = -normal;
-  float key = std::max(0.0f, normal.dot(kKey));
-  const Vector3f halfway = (kKey + Vector3f::UnitZ()).normalized();
-  float gloss = kGloss * PowerOf32(std::max(0.0f, normal.dot(halfway)));
-  if (shadows_ && key > 0) {
-    const Vector3f point(packet.x[i], packet.y[i], hits.z[i]);
-    if (rays_.Occluded(point + 1.5f * normal, kKey)) key *= 0.25f, gloss = 0;
+  const Vector3f blended = (1 - u - v) * at(0) + u * at(1) + v * at(2);
+  const Vector3f normal = picture_from_normal_[index] * blended;
+  const float length = std::max(normal.norm(), 1e-20f);
+  return normal / (normal.z() < 0 ? -length : length);
+}
+
+void Shader::Apply(const RayPacket& rays, const HitPacket& hits, ShadePacket& shades) const {
+  std::array<Vector3f, kPacket> normals;
+  RayPacket from;
+  LanePacket lit{};
+  for (unsigned i = 0; i < kPacket; ++i) {
+    if (hits.surface[i] == kNothing) continue;
+    normals[i] = NormalAt(hits, i);
+    lit[i] = normals[i].dot(kKey) > 0;
+    if (!shadows_) continue;
+    // A little off the facet, which lies a little inside the surface that it stands for.
+    from.x[i] = rays.x[i] + kShadowOffset_px * normals[i].x();
+    from.y[i] = rays.y[i] + kShadowOffset_px * normals[i].y();
+    from.z[i] = hits.z[i] + kShadowOffset_px * normals[i].z();
   }
-  const float light = kAmbient + kKeyShare * key + kFillShare * std::max(0.0f, normal.dot(kFill));
-  return scene_.surface_colours[index] * light + Shade::Constant(gloss);
+  if (shadows_) rays_.DropOccluded(from, kKey, lit);
+  for (unsigned i = 0; i < kPacket; ++i) {
+    if (hits.surface[i] == kNothing) continue;
+    const float towards_key = std::max(0.0f, normals[i].dot(kKey));
+    const float key = lit[i] ? towards_key : kShadowShare * towards_key;
+    const float gloss = lit[i] ? kGloss * PowerOf32(std::max(0.0f, normals[i].dot(kHalfway))) : 0;
+    const float fill = std::max(0.0f, normals[i].dot(kFill));
+    const float light = kAmbient + kKeyShare * key + kFillShare * fill;
+    shades[i] = scene_.surface_colours[hits.surface[i]] * light + Shade::Constant(gloss);
+  }
 }
 
 Shade GroundAt(float share) {

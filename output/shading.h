@@ -8,16 +8,21 @@
 
 namespace tranos::output {
 
+using ShadePacket = std::array<Shade, kPacket>;
+
 // The light of shaded pictures: from the upper left, in front of the picture. Faces are lit on both
 // sides.
 class Shader {
  public:
   Shader(const Scene& scene, const RayScene& rays, bool shadows);
 
-  // The colour of what a ray has met in lane `i` of a packet at (x, y).
-  Shade At(const RayPacket& packet, const HitPacket& hits, unsigned i) const;
+  // The colours of what the rays of a packet have met; those that met nothing stay as they are.
+  void Apply(const RayPacket& rays, const HitPacket& hits, ShadePacket& shades) const;
 
  private:
+  // Unit, on the side that is seen.
+  Eigen::Vector3f NormalAt(const HitPacket& hits, unsigned i) const;
+
   const Scene& scene_;
   const RayScene& rays_;
   bool shadows_;
