@@ -248,13 +248,22 @@ NodeId ParseState::ParseAtom() {
     case TokenKind::kLeftBracket:
       return ParseList();
     case TokenKind::kDot:
-      if (Next().kind != TokenKind::kNumber || Next().begin != Now().end) return FailHere("a value");
+      if (Next().kind != TokenKind::kNumber || Next().begin != Now().end) return FailValue();
       return Fail(Code::kBadNumber, {tree_.file, Now().begin, Next().end},
                   "a number begins with a digit", "",
                   fmt::format("write `0.{}`", TextOf(Next())));
     default:
-      return FailHere("a value");
+      return FailValue();
   }
+}
+
+// If a line ended where its value was to follow, that line is to blame and not the next.
+NodeId ParseState::FailValue() {
+  const bool line_ended = brackets_ == 0 && at_ > 0 && tokens_[at_ - 1].kind == TokenKind::kNewline;
+  if (line_ended) --at_;
+  FailHere("a value");
+  if (line_ended) ++at_;
+  return kNoNode;
 }
 
 NodeId ParseState::ParseKeywordAtom() {
@@ -272,7 +281,7 @@ NodeId ParseState::ParseKeywordAtom() {
   const TokenKind next = Next().kind;
   const bool alone = next != TokenKind::kWord && next != TokenKind::kNumber &&
                      next != TokenKind::kQuoteOpen && !At(Keyword::kNot) && !At(Keyword::kIf);
-  if (!alone) return FailHere("a value");
+  if (!alone) return FailValue();
   return Fail(Code::kKeywordAsName, SpanOfToken(Now()),
               fmt::format("`{}` is a keyword, and no value", TextOf(Now())), "expected a value", "");
 }

@@ -133,6 +133,7 @@ class ParseState {
   NodeId ParseIndex(NodeId list);
   NodeId ParseAtom();
   NodeId ParseKeywordAtom();
+  NodeId FailValue();
   NodeId ParseAfterPlus();
   NodeId ParseParen();
   NodeId ParseList();
