@@ -9,8 +9,9 @@ NodeId ParseState::ParseDefine() {
   const NodeId node = Make(NodeKind::kDefine, Now().begin);
   Children parts;
   Advance();
+  const std::size_t words_at = at_;
   Append(&parts, ParseWords());
-  if (failed()) RecoverHeader();
+  if (failed()) RecoverHeader(words_at);
   ParseHeader(&parts);
   if (failed()) return kNoNode;
   Append(&parts, ParseBlock());
@@ -30,15 +31,17 @@ NodeId ParseState::ParseWords() {
 void ParseState::ParseHeader(Children* out) {
   SkipSeparators();
   if (At(TokenKind::kQuoteOpen)) {
+    const std::size_t string_at = at_;
     Append(out, ParsePlainString());
-    if (failed()) RecoverHeader();
+    if (failed()) RecoverHeader(string_at);
     SkipSeparators();
   }
   while (At(TokenKind::kWord)) {
+    const std::size_t param_at = at_;
     Append(out, ParseParam());
     const bool ends = AtSeparator() || At(TokenKind::kLeftBrace) || At(TokenKind::kWord);
     if (!failed() && !ends) FailHere("the end of the parameter");
-    if (failed()) RecoverHeader();
+    if (failed()) RecoverHeader(param_at);
     SkipSeparators();
   }
   if (!At(TokenKind::kLeftBrace)) {
@@ -47,10 +50,10 @@ void ParseState::ParseHeader(Children* out) {
   }
 }
 
-void ParseState::RecoverHeader() {
+void ParseState::RecoverHeader(std::size_t part_at) {
   failed_ = false;
   brackets_ = 0;
-  if (at_ > 0 && tokens_[at_ - 1].kind == TokenKind::kNewline) --at_;
+  if (at_ > part_at + 1 && tokens_[at_ - 1].kind == TokenKind::kNewline) --at_;
   while (!AtStatementEnd() && !At(TokenKind::kLeftBrace)) ++at_;
 }
 

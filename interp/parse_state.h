@@ -112,7 +112,7 @@ class ParseState {
   NodeId ParseDefine();
   NodeId ParseWords();
   void ParseHeader(Children* out);
-  void RecoverHeader();
+  void RecoverHeader(std::size_t part_at);
   NodeId ParseParam();
   NodeId ParseType();
   NodeId ParseRange(bool many);

@@ -62,6 +62,7 @@ TEST(ParserErrors, AMistakeInAHeaderSpoilsItsLineOnly) {
   EXPECT_THAT(ErrorsIn("define place dome\n  bay length\n  span : length = )\n  r : length\n{\n"
                        "  let a = 1 2\n}\n"),
               ElementsAre("E0107@2:7", "E0107@3:19", "E0107@6:13"));
+  EXPECT_THAT(ErrorsIn("define place x\n  in x\n{ }\n"), ElementsAre("E0111@2:3"));
   EXPECT_THAT(ErrorsIn("define\n  \"doc\"\n  r : length\n{ }\n"), ElementsAre("E0107@1:7"));
 }
 
