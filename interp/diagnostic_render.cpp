@@ -49,7 +49,8 @@ Glyph GlyphAt(std::string_view text, std::size_t at) {
   const auto length =
       utf8proc_iterate(reinterpret_cast<const utf8proc_uint8_t*>(text.data()) + at,
                        static_cast<utf8proc_ssize_t>(text.size() - at), &code_point);
-  if (length <= 0) return Escaped(fmt::format("\\x{:02x}", static_cast<unsigned char>(text[at])), 1);
+  if (length <= 0)
+    return Escaped(fmt::format("\\x{:02x}", static_cast<unsigned char>(text[at])), 1);
   const auto bytes = static_cast<std::size_t>(length);
   if (MustBeEscaped(code_point)) return Escaped(fmt::format("\\u{{{:x}}}", code_point), bytes);
   const int width = utf8proc_charwidth(code_point);
@@ -156,8 +157,8 @@ class TextRenderer {
     out_ += fmt::format("{:{}} {}|{}\n", "", gutter_, gutter, off);
     out_ += fmt::format("{}{:>{}} |{}{}{}\n", gutter, place.line, gutter_, off,
                         snippet.text.empty() ? "" : " ", snippet.text);
-    out_ += fmt::format("{:{}} {}|{} {:{}}{}{}", "", gutter_, gutter, off, "",
-                        snippet.caret_column, severity, std::string(snippet.caret_count, '^'));
+    out_ += fmt::format("{:{}} {}|{} {:{}}{}{}", "", gutter_, gutter, off, "", snippet.caret_column,
+                        severity, std::string(snippet.caret_count, '^'));
     if (!label.empty()) out_ += fmt::format(" {}", Printable(label));
     out_ += fmt::format("{}\n", off);
   }

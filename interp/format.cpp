@@ -5,7 +5,8 @@
 //   four for a line that goes on with the statement before it;
 // - `; ` and ` | ` between statements, one space between a statement's parts, two before a comment
 //   behind them, ` = ` for a definition and `=` for a key;
-// - `* / ^ ..` without spaces, `+ -` with them, and without in a key's value outside brackets, where
+// - `* / ^ ..` without spaces, `+ -` with them, and without in a key's value outside brackets,
+// where
 //   commas have none either; all other operators with spaces;
 // - at most one empty line, and none just inside a block.
 #include "interp/format.h"
@@ -19,9 +20,8 @@ namespace tranos::interp {
 namespace {
 
 bool EndsOperand(TokenKind kind) {
-  return kind == TokenKind::kWord || kind == TokenKind::kNumber ||
-         kind == TokenKind::kQuoteClose || kind == TokenKind::kRightParen ||
-         kind == TokenKind::kRightBracket;
+  return kind == TokenKind::kWord || kind == TokenKind::kNumber || kind == TokenKind::kQuoteClose ||
+         kind == TokenKind::kRightParen || kind == TokenKind::kRightBracket;
 }
 
 bool Opens(TokenKind kind) {

@@ -170,9 +170,9 @@ class Lexer {
 
   Decoded DecodeAt(std::uint32_t at) const {
     std::int32_t code_point = -1;
-    const auto length = utf8proc_iterate(
-        reinterpret_cast<const utf8proc_uint8_t*>(text_.data()) + at,
-        static_cast<utf8proc_ssize_t>(text_.size() - at), &code_point);
+    const auto length =
+        utf8proc_iterate(reinterpret_cast<const utf8proc_uint8_t*>(text_.data()) + at,
+                         static_cast<utf8proc_ssize_t>(text_.size() - at), &code_point);
     return {code_point, length > 0 ? static_cast<std::uint32_t>(length) : 1};
   }
 

@@ -250,8 +250,7 @@ NodeId ParseState::ParseAtom() {
     case TokenKind::kDot:
       if (Next().kind != TokenKind::kNumber || Next().begin != Now().end) return FailValue();
       return Fail(Code::kBadNumber, {tree_.file, Now().begin, Next().end},
-                  "a number begins with a digit", "",
-                  fmt::format("write `0.{}`", TextOf(Next())));
+                  "a number begins with a digit", "", fmt::format("write `0.{}`", TextOf(Next())));
     default:
       return FailValue();
   }
@@ -283,7 +282,8 @@ NodeId ParseState::ParseKeywordAtom() {
                      next != TokenKind::kQuoteOpen && !At(Keyword::kNot) && !At(Keyword::kIf);
   if (!alone) return FailValue();
   return Fail(Code::kKeywordAsName, SpanOfToken(Now()),
-              fmt::format("`{}` is a keyword, and no value", TextOf(Now())), "expected a value", "");
+              fmt::format("`{}` is a keyword, and no value", TextOf(Now())), "expected a value",
+              "");
 }
 
 NodeId ParseState::ParseParen() {

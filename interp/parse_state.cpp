@@ -9,13 +9,12 @@
 namespace tranos::interp {
 namespace {
 
-// However far the user raises the limit, the machine's stack holds this much.
-constexpr int kDeepest = 4000;
+// However far the user raises the limit, the stack of a sanitized build holds this much.
+constexpr int kDeepest = 1000;
 
 bool EndsOperand(TokenKind kind) {
-  return kind == TokenKind::kWord || kind == TokenKind::kNumber ||
-         kind == TokenKind::kQuoteClose || kind == TokenKind::kRightParen ||
-         kind == TokenKind::kRightBracket;
+  return kind == TokenKind::kWord || kind == TokenKind::kNumber || kind == TokenKind::kQuoteClose ||
+         kind == TokenKind::kRightParen || kind == TokenKind::kRightBracket;
 }
 
 bool IsBinarySymbol(TokenKind kind) {
@@ -26,9 +25,7 @@ bool IsBinarySymbol(TokenKind kind) {
 
 ParseState::ParseState(const SourceText& source, std::uint32_t file, const ParseLimits& limits,
                        Diagnostics* diagnostics)
-    : source_(source),
-      depth_limit_(std::min(limits.depth, kDeepest)),
-      diagnostics_(diagnostics) {
+    : source_(source), depth_limit_(std::min(limits.depth, kDeepest)), diagnostics_(diagnostics) {
   tree_.file = file;
   Lexed lexed = Lex(source, file, diagnostics);
   tokens_ = std::move(lexed.tokens);
@@ -126,8 +123,8 @@ bool ParseState::CloseBracket(const Token& open, TokenKind close) {
   }
   const std::string_view closing = close == TokenKind::kRightParen ? ")" : "]";
   // A line that goes on without a comma or an operator shows that the bracket was forgotten.
-  const bool forgotten = AtStatementEnd() || At(TokenKind::kLeftBrace) ||
-                         tokens_[at_ - 1].kind == TokenKind::kNewline;
+  const bool forgotten =
+      AtStatementEnd() || At(TokenKind::kLeftBrace) || tokens_[at_ - 1].kind == TokenKind::kNewline;
   if (!forgotten) {
     FailHere(fmt::format("`,` or `{}`", closing));
     return false;

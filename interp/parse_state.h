@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The parser: a recursive descent over flat tokens. Its functions return the node they made; after a
-// mistake they return at once, `failed()` holds, and the statement's caller recovers.
+// The parser: a recursive descent over flat tokens. Its functions return the node they made; after
+// a mistake they return at once, `failed()` holds, and the statement's caller recovers.
 #pragma once
 
 #include <array>
@@ -63,7 +63,6 @@ class ParseState {
   NodeId MakeLeaf(NodeKind kind);  // of Now(), which is consumed
   void Append(Children* children, NodeId child);
   NodeId Finish(NodeId node, const Children& children);
-
 
   // Mistakes (parse_state.cpp).
   bool failed() const { return failed_; }
@@ -149,7 +148,7 @@ class ParseState {
   std::vector<Token> tokens_;
   SyntaxTree tree_;
   std::size_t at_ = 0;
-  int brackets_ = 0;  // open ( and [, in which newlines do not count
+  int brackets_ = 0;            // open ( and [, in which newlines do not count
   std::uint32_t last_end_ = 0;  // of the token consumed last
   int depth_ = 0;
   bool failed_ = false;

@@ -80,7 +80,8 @@ void ParseState::ParseOneStatement(Children* out) {
 NodeId ParseState::ParseStatement() {
   if (At(TokenKind::kLeftBrace)) return ParseBlock();
   if (!At(TokenKind::kWord)) return FailHere("a statement, which begins with a word");
-  if (AtKey() || At(Keyword::kReset) || At(Keyword::kAs) || At(Keyword::kNone)) return ParseCommand();
+  if (AtKey() || At(Keyword::kReset) || At(Keyword::kAs) || At(Keyword::kNone))
+    return ParseCommand();
   return ParseKeywordStatement();
 }
 

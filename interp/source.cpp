@@ -45,7 +45,8 @@ SourceText MakeSource(std::string path, std::string text) {
 
 SourceText::Place SourceText::PlaceOf(std::uint32_t offset) const {
   const auto after = std::upper_bound(line_starts.begin(), line_starts.end(), offset);
-  const auto line = static_cast<std::uint32_t>(std::max<std::ptrdiff_t>(1, after - line_starts.begin()));
+  const auto line =
+      static_cast<std::uint32_t>(std::max<std::ptrdiff_t>(1, after - line_starts.begin()));
   const std::uint32_t start = line_starts[line - 1];
   const std::size_t end = std::min<std::size_t>(offset, text.size());
   std::uint32_t column = 1;

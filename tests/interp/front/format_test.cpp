@@ -67,7 +67,9 @@ TEST(Format, ADefinition) {
 }
 
 TEST(Format, LineEndsAndMarksOfOtherSystemsGo) {
-  EXPECT_EQ(Formatted("\xef\xbb\xbf" "a # c\r\nb\r\n"), "a  # c\nb\n");
+  EXPECT_EQ(Formatted("\xef\xbb\xbf"
+                      "a # c\r\nb\r\n"),
+            "a  # c\nb\n");
 }
 
 // --- Random scripts ---
@@ -131,7 +133,8 @@ std::string Command() {
 }
 
 std::string Separator() {
-  return Pick({"\n", ";", " | ", ";;\n", "\n\n\n", " # c\n", "\n# own  \n", " ;\n;", "\n #a\n\n#b\n"});
+  return Pick(
+      {"\n", ";", " | ", ";;\n", "\n\n\n", " # c\n", "\n# own  \n", " ;\n;", "\n #a\n\n#b\n"});
 }
 
 std::string Statement(int depth);

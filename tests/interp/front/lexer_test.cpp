@@ -76,7 +76,8 @@ TEST(Lexer, KeywordsInAnyCase) {
 }
 
 TEST(Lexer, WordsOfAnyScriptAndCombiningAccents) {
-  EXPECT_THAT(Words("日本 Ναός e\xcc\x81t\xc3\xa9"), ElementsAre("日本", "Ναός", "e\xcc\x81t\xc3\xa9"));
+  EXPECT_THAT(Words("日本 Ναός e\xcc\x81t\xc3\xa9"),
+              ElementsAre("日本", "Ναός", "e\xcc\x81t\xc3\xa9"));
   EXPECT_EQ(NormalWord("e\xcc\x81"), "\xc3\xa9");
   EXPECT_EQ(NormalWord("plain"), "plain");
 }

@@ -152,6 +152,9 @@ TEST(ParserErrors, DepthIsTheUsersToRaise) {
   EXPECT_THAT(ErrorsIn(nested(201)), ElementsAre("E0108@1:209"));
   EXPECT_THAT(ErrorsIn(nested(1000), {1000}), IsEmpty());
   EXPECT_EQ(ErrorsIn(nested(100000), {1000000}).size(), 1u);
+  // The deepest recursion that one level can cost.
+  const std::string level = "1 or 1 and not 1 == 1..1 + 1*-2^(";
+  EXPECT_EQ(ErrorsIn("let x = " + Repeat(level, 100000), {1000000}).size(), 1u);
 }
 
 TEST(ParserErrors, ABigFileWithAnOpenBraceIsQuick) {

@@ -74,8 +74,7 @@ TEST(Parser, CallsIndicesAndMembers) {
 }
 
 TEST(Parser, ConditionalsAndLambdas) {
-  EXPECT_EQ(Value("if a then 1 else if b then 2 else 3"),
-            "(Conditional a 1 (Conditional b 2 3))");
+  EXPECT_EQ(Value("if a then 1 else if b then 2 else 3"), "(Conditional a 1 (Conditional b 2 3))");
   EXPECT_EQ(Value("xs.map(x => y => x + y)"),
             "(Call (Member xs map) (Lambda x (Lambda y (+ x y))))");
 }
@@ -139,9 +138,7 @@ TEST(Parser, StepAndToMeanSomethingOnlyInTheirPlace) {
   EXPECT_EQ(Value("to + list + of"), "(+ (+ to list) of)");
 }
 
-TEST(Parser, KeywordsInAnyCase) {
-  EXPECT_EQ(Tree("LET x = True AND y"), "(Let x (and True y))");
-}
+TEST(Parser, KeywordsInAnyCase) { EXPECT_EQ(Tree("LET x = True AND y"), "(Let x (and True y))"); }
 
 TEST(Parser, SpansCoverWhatTheyName) {
   const Parsed parsed = ParseText("place  line xy=1,(2 +3) # c\n");

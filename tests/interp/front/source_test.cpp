@@ -41,13 +41,13 @@ TEST(Source, FindsTheFirstByteThatIsNotUtf8) {
   EXPECT_EQ(FirstInvalidUtf8("plain ascii of some length"), kNone);
   EXPECT_EQ(FirstInvalidUtf8("\xc3\xa9\xe6\x97\xa5\xf0\x9f\x8f\x9b"), kNone);
   EXPECT_EQ(FirstInvalidUtf8("abcdefghij\xff"), 10u);
-  EXPECT_EQ(FirstInvalidUtf8("ab\xc3"), 2u);                // cut off
-  EXPECT_EQ(FirstInvalidUtf8("\xc0\xaf"), 0u);              // overlong
-  EXPECT_EQ(FirstInvalidUtf8("\xe0\x80\xaf"), 0u);          // overlong
-  EXPECT_EQ(FirstInvalidUtf8("x\xed\xa0\x80"), 1u);         // a surrogate
-  EXPECT_EQ(FirstInvalidUtf8("\xf4\x90\x80\x80"), 0u);      // beyond U+10FFFF
-  EXPECT_EQ(FirstInvalidUtf8("\xf0\x8f\xbf\xbf"), 0u);      // overlong
-  EXPECT_EQ(FirstInvalidUtf8("\x80"), 0u);                  // a continuation alone
+  EXPECT_EQ(FirstInvalidUtf8("ab\xc3"), 2u);            // cut off
+  EXPECT_EQ(FirstInvalidUtf8("\xc0\xaf"), 0u);          // overlong
+  EXPECT_EQ(FirstInvalidUtf8("\xe0\x80\xaf"), 0u);      // overlong
+  EXPECT_EQ(FirstInvalidUtf8("x\xed\xa0\x80"), 1u);     // a surrogate
+  EXPECT_EQ(FirstInvalidUtf8("\xf4\x90\x80\x80"), 0u);  // beyond U+10FFFF
+  EXPECT_EQ(FirstInvalidUtf8("\xf0\x8f\xbf\xbf"), 0u);  // overlong
+  EXPECT_EQ(FirstInvalidUtf8("\x80"), 0u);              // a continuation alone
 }
 
 }  // namespace

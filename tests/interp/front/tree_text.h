@@ -28,20 +28,20 @@ inline Parsed ParseText(std::string text, const ParseLimits& limits = {}) {
 
 inline std::string_view NameOf(NodeKind kind) {
   constexpr std::string_view kNames[] = {
-      "Script",  "Block", "Let",    "Unit",       "Function",    "Define",      "Param",
-      "Interface", "Parameter", "Unknown", "ForCount", "ForEach", "If",        "Group",
-      "Hypothesis", "Use", "Assert", "Command",   "KeyIns",      "Words",       "Params",
-      "Type",    "Default", "Range", "Step",      "KeyIn",       "Reset",       "Naming",
-      "Word",    "Name",  "Conditional", "Lambda", "Binary",     "Unary",       "Member",
-      "Call",    "Index", "Number", "String",     "StringText",  "StringValue", "True",
-      "False",   "Last",  "Paren",  "List",       "Error"};
+      "Script",     "Block",     "Let",         "Unit",     "Function",   "Define",      "Param",
+      "Interface",  "Parameter", "Unknown",     "ForCount", "ForEach",    "If",          "Group",
+      "Hypothesis", "Use",       "Assert",      "Command",  "KeyIns",     "Words",       "Params",
+      "Type",       "Default",   "Range",       "Step",     "KeyIn",      "Reset",       "Naming",
+      "Word",       "Name",      "Conditional", "Lambda",   "Binary",     "Unary",       "Member",
+      "Call",       "Index",     "Number",      "String",   "StringText", "StringValue", "True",
+      "False",      "Last",      "Paren",       "List",     "Error"};
   return kNames[static_cast<std::size_t>(kind)];
 }
 
 inline std::string_view NameOf(Operator operation) {
-  constexpr std::string_view kNames[] = {"or", "and", "not", "==", "!=", "<", "<=",
-                                         ">",  ">=",  "within", "consistent", "..", "+-", "+",
-                                         "-",  "*",   "/",   "%",  "neg", "^"};
+  constexpr std::string_view kNames[] = {
+      "or",         "and", "not", "==", "!=", "<", "<=", ">", ">=",  "within",
+      "consistent", "..",  "+-",  "+",  "-",  "*", "/",  "%", "neg", "^"};
   return kNames[static_cast<std::size_t>(operation)];
 }
 
