@@ -261,11 +261,17 @@ void Binder::CallInto(std::uint32_t target, NodeId id) {
           meant ? "did you mean `" + *meant + "`?" : "tranos help functions");
     return;
   }
-  // Arguments stand in registers that follow one another; a closure before them.
-  std::uint32_t closure = 0;
+  const bool method = KindOf(callee) == NodeKind::kMember;
+  // Arguments stand in registers that follow one another; a closure, or an object and its method's name, before them.
   const bool is_function = symbol && symbol->kind == Symbol::kFunction;
-  if (!is_function && builtin < 0) {
-    closure = NewRegister();
+  if (method) {
+    const auto parts = Kids(callee);
+    const std::uint32_t object = NewRegister();
+    const std::uint32_t method_name = NewRegister();
+    ExpressionInto(object, parts[0]);
+    Emit({Op::kMove, 0, 0, method_name, AddText(Text(parts[1])), 0}, SpanOf(parts[1]));
+  } else if (!is_function && builtin < 0) {
+    const std::uint32_t closure = NewRegister();
     ExpressionInto(closure, callee);
   }
   const std::uint32_t first = builder_->next_register;
@@ -294,6 +300,8 @@ void Binder::CallInto(std::uint32_t target, NodeId id) {
     }
     unit().calls.push_back(symbol->unit);
     emit({Op::kCallFunction, 0, 0, target, first, symbol->unit});
+  } else if (method) {
+    emit({Op::kCallMember, 0, scope_->measure, target, first, count});
   } else {
     emit({Op::kCallValue, 0, scope_->measure, target, first, count});
   }

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "interp/arithmetic.h"
+#include "interp/failure.h"
 #include "interp/run.h"
 #include "interp/syntax.h"
 
@@ -26,7 +27,7 @@ struct Symbol {
   bool as_list = false;        // an element name given in a loop that has ended
   int parameters = 0;          // of a function
   std::optional<model::Dimension> dimension = {};  // where it is known before running
-  Span declared;
+  Span declared = {};
   std::uint32_t file = 0;
 };
 

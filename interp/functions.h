@@ -32,6 +32,14 @@ int FindBuiltin(std::string_view name);  // −1 if there is none
 
 // value.name: a measure, a snap, a part, an interface, a coordinate. Throws OpFailure.
 model::Value Member(const CallContext& context, const model::Value& value, std::string_view name);
+// value.name(arguments): `line.at(0.3)`, `wall.face("south")`. Throws OpFailure.
+model::Value CallMember(const CallContext& context, const model::Value& value,
+                        std::string_view name, std::span<const model::Value> arguments);
+// list[i], list[a..b]. Throws OpFailure.
+model::Value IndexInto(const model::Value& list, const model::Value& index);
+// The interface that a value stands for: a record of type "interface" with name, at, axis, dir, plane and its
+// measures. Throws OpFailure for any other value.
+model::Interface InterfaceOf(const model::Value& value);
 // The element as it now stands in the model, for one that was named or chosen before it changed.
 model::ElementPtr CurrentElement(const model::State& state, const model::ElementPtr& element);
 

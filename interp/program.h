@@ -42,6 +42,7 @@ enum class Op : std::uint8_t {
   kCallBuiltin,      // a ← builtin number flags|n… (index c) of registers from b on; next word: count
   kCallFunction,     // a ← unit c of registers from b on
   kCallValue,        // a ← closure in register b − 1 … of registers from b on; c: count
+  kCallMember,       // a ← method named in register b − 1 of register b − 2, of the c registers from b on
   kMakeClosure,      // a ← closure of unit b; c: first register of the captured values
   kLoadOuter,        // a ← register c of the innermost activation of unit b
   kLoadName,         // a ← what a name stands for: scope b, index c; flags 1: from register n on

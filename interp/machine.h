@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Runs a program's instructions. Private to this room.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "interp/functions.h"
+#include "interp/run.h"
+#include "interp/stage.h"
+
+namespace tranos::interp {
+
+class Machine {
+ public:
+  Machine(const Program& program, const RunOptions& options, const Host& host);
+  Outcome Run();
+
+ private:
+  using Registers = std::vector<model::Value>;
+  // What a unit's code runs on; the innermost one of each unit is what code within it sees.
+  struct Activation {
+    const CodeUnit* unit;
+    model::Value* registers;
+  };
+  // One elements' scope that is open: the stage it belongs to, and how many groups deep.
+  struct ScopePlace {
+    Stage* stage = nullptr;
+    std::size_t depth = 0;
+  };
+  struct ClosureCode {
+    std::uint32_t unit;
+    std::vector<model::Value> captured;
+  };
+
+  model::Value Execute(std::uint32_t unit, model::Value* registers, std::uint32_t from, Stage* stage);
+  model::Value CallUnit(std::uint32_t unit, std::span<const model::Value> arguments,
+                        std::span<const model::Value> captured, Span span);
+  model::Value CallClosure(const model::Value& closure, std::span<const model::Value> arguments, Span span);
+  // The slower instructions, each in a function of its own.
+  void Compute(const Instruction& instruction, const CodeUnit& unit, model::Value* registers, Span span);
+  bool BeginCount(const Instruction& i, model::Value* registers, Span span);
+  bool NextCount(const Instruction& i, model::Value* registers, Span span);
+  bool BeginEach(const Instruction& i, model::Value* registers, Span span);
+  bool NextEach(const Instruction& i, model::Value* registers, Span span);
+  model::Value LoadName(const Instruction& i, const CodeUnit& unit, const model::Value* registers,
+                        const Instruction& next, Span span);
+  void Effect(const Instruction& i, const CodeUnit& unit, model::Value* registers, Stage* stage, Span span);
+  void PointEffect(const Instruction& i, const CodeUnit& unit, const model::Value* registers, Stage* stage, Span span);
+  void NoteAssert(const Instruction& i, const CodeUnit& unit, const model::Value* registers, Span span);
+  void CheckRange(const Instruction& i, const CodeUnit& unit, const model::Value* registers, Span span);
+  void NoteInterface(const Instruction& i, const CodeUnit& unit, const model::Value* registers, Span span);
+  // Definitions (placing.cpp).
+  model::ElementPtr Place(const Placement& placement, const model::State& state);
+  model::PrototypePtr Build(const Definition& definition, Registers registers, Span span);
+  model::Hash128 KeyOf(const Definition& definition, const Registers& registers);
+  const std::vector<std::pair<std::uint32_t, std::uint32_t>>& OuterOf(std::uint32_t unit);
+
+  CallContext ContextOf(const Instruction& i, Span span);
+  StageLinks LinksFor(bool is_script);
+  [[noreturn]] void Throw(const OpFailure& failure, Span span, const CodeUnit* unit, std::uint32_t at) const;
+
+  const Program& program_;
+  const RunOptions& options_;
+  const Host& host_;
+  Budget budget_;
+  Outcome outcome_;
+  SourceList sources_;
+  std::vector<Activation> innermost_;     // by unit
+  std::vector<ScopePlace> places_;        // by name scope
+  std::vector<std::uint32_t> turns_;
+  int call_depth_ = 0;
+  int definition_depth_ = 0;
+  Stage* stage_ = nullptr;  // of the code that runs
+  const Placement* placing_ = nullptr;
+  std::vector<model::Interface>* interfaces_ = nullptr;  // of the definition being built
+  std::map<std::pair<std::uint32_t, model::Hash128>, model::PrototypePtr> prototypes_;
+  std::unordered_map<std::uint32_t, std::vector<std::pair<std::uint32_t, std::uint32_t>>> outer_;
+  std::unordered_map<std::uint32_t, std::vector<std::pair<std::uint32_t, std::uint32_t>>> outer_names_;
+};
+
+}  // namespace tranos::interp

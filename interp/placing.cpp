@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Placing a defined element: its body is run once for the same arguments, and placed any number of times.
+#include <algorithm>
+#include <cmath>
+
+#include "interp/machine.h"
+
+namespace tranos::interp {
+
+using geom::Vec3;
+using model::Hash128;
+using model::Value;
+
+namespace {
+
+// Sets a variable for as long as it lives.
+template <class T>
+class Lend {
+ public:
+  Lend(T* slot, T value) : slot_(slot), before_(std::exchange(*slot, std::move(value))) {}
+  ~Lend() { *slot_ = std::move(before_); }
+  Lend(const Lend&) = delete;
+  Lend& operator=(const Lend&) = delete;
+
+ private:
+  T* slot_;
+  T before_;
+};
+
+}  // namespace
+
+// What a unit reads of the activations around it, through everything it calls.
+const std::vector<std::pair<std::uint32_t, std::uint32_t>>& Machine::OuterOf(std::uint32_t unit) {
+  const auto [found, is_new] = outer_.try_emplace(unit);
+  if (!is_new) return found->second;
+  std::vector<bool> seen(program_.units.size());
+  std::vector<std::uint32_t> pending{unit};
+  auto& names = outer_names_[unit];
+  while (!pending.empty()) {
+    const std::uint32_t at = pending.back();
+    pending.pop_back();
+    if (seen[at]) continue;
+    seen[at] = true;
+    const CodeUnit& code = program_.units[at];
+    found->second.insert(found->second.end(), code.outer.begin(), code.outer.end());
+    names.insert(names.end(), code.outer_names.begin(), code.outer_names.end());
+    pending.insert(pending.end(), code.calls.begin(), code.calls.end());
+  }
+  for (auto* list : {&found->second, &names}) {
+    std::sort(list->begin(), list->end());
+    list->erase(std::unique(list->begin(), list->end()), list->end());
+  }
+  return found->second;
+}
+
+// Arguments and everything else that the body can depend on.
+Hash128 Machine::KeyOf(const Definition& definition, const Registers& registers) {
+  model::Hasher hasher;
+  for (std::size_t i = 0; i < definition.parameters.size(); ++i) AddToHash(hasher, registers[i]);
+  for (const auto& [unit, reg] : OuterOf(definition.unit)) {
+    const Activation& activation = innermost_[unit];
+    if (activation.registers) AddToHash(hasher, activation.registers[reg]);
+  }
+  for (const auto& [scope, index] : outer_names_[definition.unit]) {
+    const ScopePlace& place = places_[scope];
+    if (!place.stage || scope == definition.scope) continue;
+    const auto& ids = place.stage->NamesOut(place.stage->groups() - place.depth)[index].ids;
+    ids.ForEach([&](model::ElementId id) {
+      if (const model::ElementPtr element = place.stage->state().model.Current(id)) hasher.Hash(element->hash);
+    });
+  }
+  return hasher.Finish();
+}
+
+model::ElementPtr Machine::Place(const Placement& placement, const model::State& state) {
+  const Definition& definition = *placement.definition;
+  const CodeUnit& unit = program_.units[definition.unit];
+  if (definition_depth_ >= budget_.limits.depth) {
+    Fail(Code::kDepthLimit, placement.span,
+         "definitions are nested more than " + std::to_string(budget_.limits.depth) + " deep", "",
+         "does the definition place itself without end? --limit depth=N raises the limit");
+  }
+  budget_.ChargeSteps(1, placement.span);
+  Registers registers(unit.registers);
+  for (std::size_t i = 0; i < definition.parameters.size(); ++i) {
+    const DefinedParameter& parameter = definition.parameters[i];
+    registers[i] = placement.arguments[i];
+    for (const auto& [name, measure] : placement.measures) {
+      if (name != parameter.name) continue;
+      const Value value = Convert(measure, parameter.type, program_.measures[0], name);
+      if (registers[i].is_none()) {
+        registers[i] = value;
+      } else if (!model::Same(registers[i], value)) {
+        outcome_.diagnostics.Add({Code::kInterfaceDiffers, placement.argument_spans[i],
+                                  "`" + name + "` is " + Format(registers[i], program_.measures[0], -1) +
+                                      ", but the interface says " + Format(value, program_.measures[0], -1),
+                                  "", "leave `" + name + "=` out to take the interface's"});
+      }
+    }
+  }
+  Lend<const Placement*> placing(&placing_, &placement);
+  ++definition_depth_;
+  Execute(definition.unit, registers.data(), 0, stage_);  // the parameters
+  const auto key = std::make_pair(definition.unit, KeyOf(definition, registers));
+  auto found = prototypes_.find(key);
+  if (found == prototypes_.end()) {
+    found = prototypes_.emplace(key, Build(definition, std::move(registers), placement.span)).first;
+  }
+  --definition_depth_;
+  auto instance = std::make_shared<model::Instance>();
+  instance->prototype = found->second;
+  instance->world_from_prototype = placement.world_from_element;
+  return NewElement(state, model::InstancePtr(std::move(instance)));
+}
+
+model::PrototypePtr Machine::Build(const Definition& definition, Registers registers, Span span) {
+  Stage stage(LinksFor(false));
+  std::vector<model::Interface> interfaces;
+  auto prototype = std::make_shared<model::Prototype>();
+  for (std::size_t i = 0; i < definition.parameters.size(); ++i) {
+    prototype->parameters.emplace_back(definition.parameters[i].name, registers[i]);
+  }
+  {
+    Lend<Stage*> on_stage(&stage_, &stage);
+    Lend<const Placement*> nothing_placed(&placing_, nullptr);
+    Lend<std::vector<model::Interface>*> lent(&interfaces_, &interfaces);
+    Lend<ScopePlace> place(&places_[definition.scope], {&stage, 0});
+    Lend<std::vector<std::uint32_t>> turns(&turns_, {});
+    Execute(definition.unit, registers.data(), program_.units[definition.unit].body, &stage);
+  }
+  prototype->words = definition.words.substr(definition.words.find(' ') + 1);
+  model::Hasher hasher;
+  hasher.Text(prototype->words);
+  Hash128 sum;
+  stage.state().model.ForEach([&](const model::ElementPtr& part) {
+    prototype->parts.push_back(part);
+    sum = sum + part->hash;
+  });
+  if (prototype->parts.empty()) {
+    Fail(Code::kNothingMade, span, "`" + definition.words + "` makes nothing", "", "",
+         {{definition.span, "its body leaves no element in the model"}});
+  }
+  prototype->hash = hasher.Hash(sum).Finish();
+  prototype->names = stage.NamesOf(definition.scope);
+  prototype->interfaces = std::move(interfaces);
+  return prototype;
+}
+
+void Machine::NoteInterface(const Instruction& i, const CodeUnit& unit, const Value* r, Span span) {
+  model::Interface interface;
+  interface.name = unit.constants[i.a & ~kConstantBit].string();
+  Vec3 axis = Vec3::UnitZ(), direction = Vec3::Zero();
+  for (std::uint32_t n = 0; n < i.c; ++n) {
+    const std::string& key = r[i.b + 2 * n].string();
+    const Value& value = r[i.b + 2 * n + 1];
+    if (key == "at") interface.frame.origin = PointOf(value);
+    else if (key == "axis") axis = PointOf(value);
+    else if (key == "dir") direction = PointOf(value);
+    else interface.measures.emplace_back(key, value);
+  }
+  if (!(axis.norm() > 0)) Fail(Code::kDegenerate, span, "the axis of the interface has no direction");
+  axis.normalize();
+  Vec3 x = direction - direction.dot(axis) * axis;
+  if (!(x.norm() > 1e-9)) {
+    const Vec3 aside = std::abs(axis.z()) > 0.999 ? Vec3(Vec3::UnitX()) : Vec3(Vec3::UnitZ().cross(axis));
+    x = aside - aside.dot(axis) * axis;
+  }
+  interface.frame.x = x.normalized();
+  interface.frame.y = axis.cross(interface.frame.x);
+  for (const model::Interface& known : *interfaces_) {
+    if (known.name == interface.name) {
+      Fail(Code::kBoundTwice, span, "the definition has an interface `" + interface.name + "` already");
+    }
+  }
+  interfaces_->push_back(std::move(interface));
+}
+
+}  // namespace tranos::interp

@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// How a command runs (LANGUAGE.md, section 4): the state, the active command with its answers, and
+// the history that undo walks. A script has one stage; so has each body of a definition while it is
+// built.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "interp/arithmetic.h"
+#include "interp/failure.h"
+#include "interp/run.h"
+#include "model/edit.h"
+
+namespace tranos::interp {
+
+// What a run may still use; shared by all its stages.
+struct Budget {
+  explicit Budget(const Limits& given) : steps_left(given.steps), limits(given) {}
+  std::uint64_t steps_left;
+  std::uint64_t elements_made = 0;
+  Limits limits;
+  void ChargeSteps(std::uint64_t count, Span span);
+  void ChargeElements(std::uint64_t count, Span span);
+  // A list, string or range about to be made: refused before it takes the memory.
+  void ChargeBytes(std::uint64_t bytes, Span span) const;
+};
+
+[[noreturn]] void Fail(Code code, Span span, std::string message, std::string label = {},
+                       std::string help = {}, std::vector<Note> notes = {});
+
+// Where and how a defined element is put.
+struct Placement {
+  const Definition* definition;
+  std::vector<model::Value> arguments;  // by parameter; none where not given
+  std::vector<Span> argument_spans;
+  geom::Affine world_from_element;
+  Span span;                                                   // of the command
+  std::vector<std::pair<std::string, model::Value>> measures;  // of the interface it is placed on
+};
+
+// What a stage needs of the run around it.
+struct StageLinks {
+  const Program* program;
+  Budget* budget;
+  Diagnostics* diagnostics;
+  const RunOptions* options;  // for on_step; null for a definition's body
+  const Host* host;
+  std::vector<model::OutputRequest>* outputs;  // null for a definition's body
+  std::function<model::ElementPtr(const Placement&, const model::State&)> place;
+  const std::vector<std::uint32_t>* turns;
+};
+
+class Stage {
+ public:
+  explicit Stage(StageLinks links) : links_(std::move(links)) {}
+
+  void Start(const Command* row, const Definition* definition, Span span);
+  void Option(const std::string& word, Span span);
+  void BareString(const std::string& text, Span span);
+  void Parameter(std::uint32_t key, model::Value value, Span span);
+  // A data point other than `on=`: a list of lengths (of di=: a length and an angle), or one
+  // length.
+  void Point(PointKey kind, const model::Value& values, Span span);
+  void On(const model::Interface& interface, Span span);
+  void Set(const SettingRow& row, const model::Value& value, Span span);
+  void Reset(Span span);
+  void EndStatement(Span span);
+  void EndCommand(Span span);
+  void BlockBegin(bool restores);
+  void BlockEnd(Span span);
+  void GroupBegin(std::uint32_t scope, Span span);
+  void GroupEnd(Span span);
+  // `as`: from is where this turn's elements begin, in a loop.
+  void Name(const std::string& name, std::uint32_t index, bool in_turn, std::size_t from,
+            Span span);
+  // The names of the innermost group (0 out), of the one around it, … of the script or definition.
+  const model::Names& NamesOut(std::size_t groups_out) const;
+
+  const model::State& state() const { return state_; }
+  std::size_t groups() const { return groups_.size(); }
+  // What the names of the scope stand for, as a group or prototype keeps them.
+  std::vector<model::NamedElements> NamesOf(std::uint32_t scope) const;
+
+ private:
+  struct KeyAnswer {
+    model::Value value;
+    Span span;
+    bool given = false;
+    bool used = false;
+  };
+  // The command that was started and has not ended.
+  struct Active {
+    const Command* row = nullptr;
+    const Definition* definition = nullptr;
+    Span span;
+    std::size_t depth = 0;
+    bool own_statement = true;  // still in the statement that began it
+    std::vector<geom::Vec3> points;
+    std::vector<Span> point_spans;
+    std::vector<bool> answered;  // prompts that a data point answered
+    int begun = 0;               // data points since the last firing
+    std::vector<KeyAnswer> keys;
+    std::vector<std::string> words;
+    std::vector<Span> word_spans;
+    std::string text;
+    Span text_span;
+    bool has_text = false;
+    std::vector<model::ElementId> picks;
+    int firings = 0;
+    std::vector<std::pair<std::string, model::Value>> measures = {};  // of `on=`
+    bool has_frame = false;
+    geom::Frame frame;  // of `on=`
+  };
+  struct Block {
+    model::SettingsPtr settings;
+    bool restores;
+    std::size_t history_base;
+  };
+  struct OpenGroup {
+    std::uint32_t scope;  // its name scope
+    model::Names names;   // those of the scope around it
+    std::size_t history_size;
+    std::size_t first_id;
+    model::State before;
+  };
+  void TakePoint(const geom::Vec3& point, Span span);
+  void AnswerPrompt(const geom::Vec3& point, Span span);
+  void PickOrAccept(const geom::Vec3& point, Span span);
+  bool PromptsAnswered() const;
+  bool KeyAnswers(int prompt) const;
+  const KeyAnswer* FindKey(std::string_view name) const;
+  std::vector<model::ElementPtr> Chosen(Span span) const;
+  std::size_t ChosenCount() const;
+  void AddChosen(const model::ElementPtr& element, Span span,
+                 std::vector<model::ElementPtr>* out) const;
+  void Fire(Span span);
+  void FirePlacement(Span span);
+  void FireHistory(Span span);
+  void AskAgain();
+  void CheckRequired(Span span) const;
+  void CheckUnused() const;
+  Answers MakeAnswers(Span span) const;
+  void Commit(const model::Edit& edit, Span span);
+  void End(Span span, bool is_reset);
+  void EndPicking(bool is_reset, Span span);
+  void TooFew(Span span) const;
+  void Tell(std::string key_in, Span span, const model::Edit* edit,
+            const std::vector<model::ElementId>& ids);
+  Span SpanOf(const Where& where) const;
+  Diagnostic MakeDiagnostic(const CommandError& error) const;
+  void Undo(Span span);
+  void UndoToMark(Span span);
+  void Redo(Span span);
+  void RestoreModel(const model::State& earlier);
+
+  StageLinks links_;
+  model::State state_;
+  Active active_;
+  std::vector<model::ElementId> made_;  // by the active command, or the one that ended last
+  std::vector<Block> blocks_;
+  std::vector<OpenGroup> groups_;
+  std::vector<model::State> history_;  // the state before each firing that changed the model
+  std::vector<model::State> undone_;
+  std::size_t history_base_ = 0;
+  std::vector<std::pair<std::string, std::size_t>> marks_;
+  std::string key_in_;  // text of the key-in being carried out, when steps are told
+};
+
+}  // namespace tranos::interp

@@ -1,0 +1,399 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Firing: from answers to an edit to the next state; how commands end; undo and redo.
+#include <algorithm>
+#include <cmath>
+
+#include "interp/functions.h"
+#include "interp/pick.h"
+#include "interp/stage.h"
+
+namespace tranos::interp {
+
+using geom::Vec3;
+using model::ElementId;
+using model::ElementPtr;
+using model::Value;
+
+namespace {
+
+constexpr std::string_view kChooseHelp =
+    "choose first: `choose element;xy=…`, `choose all`; or give it: `of=NAME`";
+
+bool TakesChosen(const Command& row) {
+  return std::any_of(row.keys.begin(), row.keys.end(), [](const Key& key) { return key.name == "of"; });
+}
+
+}  // namespace
+
+Span Stage::SpanOf(const Where& where) const {
+  const auto index = static_cast<std::size_t>(std::max(where.index, 0));
+  switch (where.kind) {
+    case Where::kCommand: break;
+    case Where::kKey:
+      if (const KeyAnswer* key = FindKey(where.key)) return key->span;
+      break;
+    case Where::kPoint:
+      if (index < active_.point_spans.size()) return active_.point_spans[index];
+      break;
+    case Where::kChosen:
+      if (const KeyAnswer* key = FindKey("of")) return key->span;
+      break;
+    case Where::kString:
+      if (active_.has_text) return active_.text_span;
+      break;
+  }
+  return active_.span;
+}
+
+Diagnostic Stage::MakeDiagnostic(const CommandError& error) const {
+  return {error.code, SpanOf(error.where), error.message, error.label, error.help};
+}
+
+void Stage::AddChosen(const ElementPtr& element, Span span, std::vector<ElementPtr>* out) const {
+  const model::Model& model = state_.model;
+  if (element->id < model.entries.size()) {
+    const model::Standing standing = model.entries[element->id].standing;
+    const std::string name = element->name ? "`" + Printable(*element->name) + "`" : "the element";
+    if (standing == model::Standing::kDeleted) Fail(Code::kNoLongerThere, span, name + " was deleted");
+    const ElementPtr current = model.Current(element->id);
+    const bool known = std::any_of(out->begin(), out->end(), [&](const ElementPtr& e) { return e->id == element->id; });
+    if (!known) out->push_back(current);
+    return;
+  }
+  out->push_back(element);  // a part of a placed element: geometry alone
+}
+
+std::vector<ElementPtr> Stage::Chosen(Span span) const {
+  std::vector<ElementPtr> out;
+  const KeyAnswer* of = FindKey("of");
+  if (of && (active_.firings == 0 || !of->used)) {
+    for (const Value& item : of->value.list()) AddChosen(item.element(), of->span, &out);
+    return out;
+  }
+  const bool picking = active_.row->manner == Manner::kPicks || active_.row->manner == Manner::kEdits;
+  // What was chosen before is used by a picking command's first firing alone.
+  if (!picking || active_.firings == 0) {
+    for (ElementId id : state_.drawing.selection) out.push_back(state_.model.Current(id));
+  }
+  for (ElementId id : active_.picks) AddChosen(state_.model.Current(id), span, &out);
+  return out;
+}
+
+std::size_t Stage::ChosenCount() const {
+  const KeyAnswer* of = FindKey("of");
+  if (of && (active_.firings == 0 || !of->used)) return of->value.list().size();
+  const bool picking = active_.row->manner == Manner::kPicks || active_.row->manner == Manner::kEdits;
+  std::size_t count = active_.picks.size();
+  if (!picking || active_.firings == 0) count += state_.drawing.selection.size();
+  return count;
+}
+
+void Stage::PickOrAccept(const Vec3& point, Span span) {
+  const PickResult pick = Pick(state_, point);
+  if (!pick.within) {
+    const std::size_t chosen = ChosenCount();
+    if (chosen == 0) return;
+    if (chosen < static_cast<std::size_t>(active_.row->least)) TooFew(span);
+    return Fire(span);
+  }
+  if (pick.ambiguous) {
+    links_.diagnostics->Add({Code::kAmbiguousPick, span, "several elements are equally near", "the one made last is picked",
+                             "pick at another place, or give `of=NAME`"});
+  }
+  const ElementId id = pick.element->id;
+  ++active_.begun;
+  const model::Selection& selection = state_.drawing.selection;
+  const bool chosen = active_.firings == 0 && selection.Contains(id);
+  if (!chosen && std::find(active_.picks.begin(), active_.picks.end(), id) == active_.picks.end()) {
+    active_.picks.push_back(id);
+  }
+}
+
+Answers Stage::MakeAnswers(Span span) const {
+  Answers answers;
+  answers.points = active_.points;
+  answers.answered = active_.answered;
+  if (TakesChosen(*active_.row)) answers.chosen = Chosen(span);
+  answers.words = active_.words;
+  answers.string = active_.text;
+  answers.has_string = active_.has_text;
+  for (std::size_t i = 0; i < active_.keys.size(); ++i) {
+    if (active_.keys[i].given) answers.keys.emplace_back(active_.row->keys[i].name, active_.keys[i].value);
+  }
+  answers.first = active_.firings == 0;
+  return answers;
+}
+
+void Stage::CheckRequired(Span span) const {
+  for (std::size_t i = 0; i < active_.keys.size(); ++i) {
+    const Key& key = active_.row->keys[i];
+    if (!key.required || active_.keys[i].given) continue;
+    const bool measured = std::any_of(active_.measures.begin(), active_.measures.end(),
+                                      [&](const auto& measure) { return measure.first == key.name; });
+    if (measured) continue;
+    if (active_.has_text && active_.row->string_key == key.name) continue;
+    Fail(Code::kMissingValue, active_.span,
+         "`" + std::string(active_.row->words) + "` needs `" + std::string(key.name) + "=`",
+         std::string(key.summary), "tranos help " + std::string(active_.row->words), {{span, "it would fire here"}});
+  }
+}
+
+void Stage::Fire(Span span) {
+  const Command& row = *active_.row;
+  CheckRequired(span);
+  if (row.history != HistoryStep::kNone) return FireHistory(span);
+  if (active_.definition) return FirePlacement(span);
+  const Answers answers = MakeAnswers(span);
+  if (row.manner == Manner::kTransforms && answers.chosen.empty()) {
+    Fail(Code::kNothingChosen, active_.span, "nothing is chosen for `" + std::string(row.words) + "`", "",
+         std::string(kChooseHelp));
+  }
+  CommandResult result = row.execute(state_, answers);
+  if (!result) throw RunFailure{MakeDiagnostic(result.error())};
+  for (const CommandError& warning : result->warnings) links_.diagnostics->Add(MakeDiagnostic(warning));
+  for (const std::string& line : result->messages) {
+    if (links_.host->print) links_.host->print(line);
+  }
+  if (links_.outputs) {
+    for (model::OutputRequest& output : result->edit.outputs) links_.outputs->push_back(output);
+  }
+  links_.budget->ChargeElements(result->edit.added.size(), span);
+  if (result->edit.ChangesModel()) history_.push_back(state_);
+  Commit(result->edit, span);
+  AskAgain();
+}
+
+void Stage::FirePlacement(Span span) {
+  Placement placement{active_.definition, {}, {}, geom::Affine::Identity(), active_.span, active_.measures};
+  for (std::size_t i = 0; i < active_.keys.size(); ++i) {
+    placement.arguments.push_back(active_.keys[i].value);
+    placement.argument_spans.push_back(active_.keys[i].given ? active_.keys[i].span : active_.span);
+  }
+  const model::Settings& settings = *state_.drawing.settings;
+  geom::Frame frame = active_.has_frame ? active_.frame : settings.plane;
+  frame.origin = active_.points[0];
+  placement.world_from_element = frame.WorldFromFrame();
+  placement.world_from_element.rotate(Eigen::AngleAxisd(settings.angle_rad, Vec3::UnitZ()));
+  placement.world_from_element.scale(settings.scale);
+  model::Edit edit;
+  edit.added.push_back(links_.place(placement, state_));
+  links_.budget->ChargeElements(1, span);
+  history_.push_back(state_);
+  Commit(edit, span);
+  AskAgain();
+}
+
+// Carries an edit out, remembers what it made, and tells of it.
+void Stage::Commit(const model::Edit& edit, Span span) {
+  if (edit.ChangesModel()) undone_.clear();
+  const bool grows = !edit.added.empty() || !edit.released.empty();
+  model::Applied applied = model::Apply(std::move(state_), edit);
+  state_ = std::move(applied.state);
+  if (grows) {
+    // `as` names what was made; what was only changed keeps its own name.
+    for (std::size_t i = 0; i < applied.made_or_changed.size(); ++i) {
+      const bool changed = i >= edit.added.size() && i < edit.added.size() + edit.replaced.size();
+      if (!changed) made_.push_back(applied.made_or_changed[i]);
+    }
+  }
+  if (links_.options) Tell(std::exchange(key_in_, {}), span, &edit, applied.made_or_changed);
+}
+
+void Stage::AskAgain() {
+  for (KeyAnswer& key : active_.keys) key.used = key.used || key.given;
+  ++active_.firings;
+  active_.begun = 0;
+  active_.picks.clear();
+  const Command& row = *active_.row;
+  if (row.manner == Manner::kGathers) {
+    active_.points.clear();
+    active_.point_spans.clear();
+    return;
+  }
+  if (row.carries && !active_.points.empty()) {
+    active_.points[0] = active_.points.back();
+    active_.point_spans[0] = active_.point_spans.back();
+  }
+  for (std::size_t i = static_cast<std::size_t>(row.again); i < active_.answered.size(); ++i) active_.answered[i] = false;
+}
+
+void Stage::EndStatement(Span span) {
+  if (!active_.row || !active_.own_statement) {
+    // `of=` given later fires at the end of the statement it stands in.
+    if (!active_.row) return;
+    const KeyAnswer* of = FindKey("of");
+    if (of && !of->used && (active_.row->manner == Manner::kPicks || active_.row->manner == Manner::kEdits)) Fire(span);
+    return;
+  }
+  active_.own_statement = false;
+  const KeyAnswer* of = FindKey("of");
+  switch (active_.row->manner) {
+    case Manner::kImmediate: End(span, false); break;
+    case Manner::kPicks:
+      if (of && !of->used) Fire(span);
+      break;
+    case Manner::kEdits:
+      if (ChosenCount() > 0 && active_.picks.empty()) Fire(span);
+      break;
+    case Manner::kTransforms:
+      if (of && !of->used && PromptsAnswered()) Fire(span);
+      break;
+    default: break;
+  }
+}
+
+void Stage::TooFew(Span span) const {
+  const Command& row = *active_.row;
+  if (row.manner == Manner::kPicks || row.manner == Manner::kEdits) {
+    const std::size_t count = ChosenCount();
+    if (count == 0) {
+      Fail(Code::kNothingChosen, active_.span, "nothing is chosen for `" + std::string(row.words) + "`", "",
+           std::string(kChooseHelp) + "; or pick with data points");
+    }
+    Fail(Code::kTooFewPoints, active_.span,
+         "`" + std::string(row.words) + "` needs " + std::to_string(row.least) + " elements, and has " +
+             std::to_string(count),
+         "", "", {{span, "it ends here"}});
+  }
+  std::string asked;
+  if (row.manner == Manner::kGathers) {
+    asked = "at least " + std::to_string(row.least) + " points, and has " + std::to_string(active_.points.size());
+  } else {
+    for (std::size_t i = 0; i < row.prompts.size() && asked.empty(); ++i) {
+      if (!active_.answered[i] && !KeyAnswers(static_cast<int>(i))) asked = "a point: " + std::string(row.prompts[i].name);
+    }
+  }
+  if (asked.empty()) asked = "a data point";
+  Fail(Code::kTooFewPoints, active_.span, "`" + std::string(row.words) + "` asks for " + asked, "",
+       "give it a data point such as xy=0,0,0, or drop the question with `reset`", {{span, "it ends here"}});
+}
+
+void Stage::CheckUnused() const {
+  for (std::size_t i = 0; i < active_.keys.size(); ++i) {
+    if (!active_.keys[i].given || active_.keys[i].used) continue;
+    const std::string name(active_.row->keys[i].name);
+    Fail(Code::kUnusedParameter, active_.keys[i].span, "nothing was made with `" + name + "=`", "not used",
+         "write `" + name + "=` before the point");
+  }
+}
+
+void Stage::EndPicking(bool is_reset, Span span) {
+  const std::size_t chosen = ChosenCount();
+  const bool constructs = active_.row->manner == Manner::kPicks;
+  const bool enough = chosen >= static_cast<std::size_t>(active_.row->least) && chosen > 0;
+  if (enough && (constructs || !is_reset)) return Fire(span);
+  if (!is_reset && (active_.begun > 0 || active_.firings == 0)) TooFew(span);
+}
+
+void Stage::End(Span span, bool is_reset) {
+  if (!active_.row) return;
+  const Command& row = *active_.row;
+  switch (row.manner) {
+    case Manner::kImmediate:
+      if (active_.firings == 0) Fire(span);
+      break;
+    case Manner::kGathers:
+      if (static_cast<int>(active_.points.size()) >= row.least) {
+        Fire(span);
+      } else if (!is_reset && (active_.begun > 0 || active_.firings == 0)) {
+        TooFew(span);
+      }
+      break;
+    case Manner::kPicks:
+    case Manner::kEdits: EndPicking(is_reset, span); break;
+    default:
+      if (!is_reset && (active_.begun > 0 || active_.firings == 0)) {
+        if (row.manner == Manner::kTransforms && ChosenCount() == 0) {
+          Fail(Code::kNothingChosen, active_.span, "nothing is chosen for `" + std::string(row.words) + "`", "",
+               std::string(kChooseHelp));
+        }
+        TooFew(span);
+      }
+  }
+  if (!is_reset) CheckUnused();
+  active_.row = nullptr;
+}
+
+void Stage::FireHistory(Span span) {
+  const HistoryStep step = active_.row->history;
+  if (step == HistoryStep::kMark) {
+    marks_.emplace_back(active_.text, history_.size());
+  } else if (step == HistoryStep::kRedo) {
+    Redo(span);
+  } else if (active_.has_text) {
+    UndoToMark(span);
+  } else {
+    Undo(span);
+  }
+  AskAgain();
+  if (links_.options) Tell(std::exchange(key_in_, {}), span, nullptr, {});
+}
+
+// What undo brings back: the model, the names, `last` and the selection; settings stay.
+void Stage::RestoreModel(const model::State& earlier) {
+  const std::size_t size = state_.model.entries.size();
+  state_.model = earlier.model;
+  // An id is given once in a run: those that are undone stay taken.
+  while (state_.model.entries.size() < size) state_.model.entries.Append({nullptr, model::Standing::kDeleted});
+  state_.drawing.names = earlier.drawing.names;
+  state_.drawing.last = earlier.drawing.last;
+  state_.drawing.selection = earlier.drawing.selection;
+}
+
+void Stage::Undo(Span span) {
+  if (history_.size() <= history_base_) {
+    Fail(Code::kNothingToUndo, span, "there is nothing to undo in this block");
+  }
+  undone_.push_back(state_);
+  RestoreModel(history_.back());
+  history_.pop_back();
+  made_.clear();
+}
+
+void Stage::UndoToMark(Span span) {
+  for (std::size_t i = marks_.size(); i-- > 0;) {
+    if (marks_[i].first != active_.text || marks_[i].second < history_base_) continue;
+    const std::size_t target = marks_[i].second;
+    marks_.resize(i + 1);
+    while (history_.size() > target) Undo(span);
+    return;
+  }
+  Fail(Code::kUnknownMark, span, "there is no mark \"" + Printable(active_.text) + "\" in this block", "",
+       "mark \"" + Printable(active_.text) + "\" sets one");
+}
+
+void Stage::Redo(Span span) {
+  if (undone_.empty()) Fail(Code::kNothingToUndo, span, "there is nothing to redo");
+  history_.push_back(state_);
+  RestoreModel(undone_.back());
+  undone_.pop_back();
+}
+
+void Stage::Tell(std::string key_in, Span span, const model::Edit* edit, const std::vector<ElementId>& ids) {
+  if (!links_.options || !links_.options->on_step) return;
+  Step step;
+  step.key_in = std::move(key_in);
+  step.span = span;
+  step.edit = edit;
+  step.ids = ids;
+  step.state = &state_;
+  step.statement = active_.span;
+  step.turns = *links_.turns;
+  if (active_.row) {
+    step.command = active_.row->words;
+    if (edit) {
+      for (std::size_t i = 0; i < active_.points.size(); ++i) {
+        const bool gathers = active_.row->manner == Manner::kGathers;
+        if (!gathers && i < active_.answered.size() && !active_.answered[i]) continue;
+        step.answers.emplace_back(gathers || i >= active_.row->prompts.size() ? "point" : std::string(active_.row->prompts[i].name),
+                                  Value::OfPoint(active_.points[i]));
+      }
+      for (std::size_t i = 0; i < active_.keys.size(); ++i) {
+        if (active_.keys[i].given) step.answers.emplace_back(active_.row->keys[i].name, active_.keys[i].value);
+      }
+    }
+  }
+  links_.options->on_step(step);
+}
+
+}  // namespace tranos::interp
