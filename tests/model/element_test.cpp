@@ -95,7 +95,8 @@ TEST(Element, TransformedGroupsCarryTheirNames) {
   const ElementPtr member = MakePoint(1), gone = MakePoint(2);
   const ElementPtr group =
       MakeGroup({member}, {{"kept", {member}, false}, {"consumed", {gone}, false}});
-  const auto& moved = *std::get<GroupPtr>(Transformed(*group, Moved(10))->geometry);
+  const ElementPtr transformed = Transformed(*group, Moved(10));
+  const Group& moved = *std::get<GroupPtr>(transformed->geometry);
   EXPECT_EQ(moved.names[0].elements[0], moved.members[0]);
   EXPECT_EQ(BoundingBox(*moved.members[0]).min.x(), 11);
   EXPECT_EQ(BoundingBox(*moved.names[1].elements[0]).min.x(), 12);
