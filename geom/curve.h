@@ -57,8 +57,8 @@ Result<Arc> ArcThrough(const Vec3& start, const Vec3& on, const Vec3& end);
 // The arc about `centre` from `start`, counter-clockwise about `normal`, to the direction of `end`.
 Result<Arc> ArcAround(const Vec3& centre, const Vec3& start, const Vec3& end, const Vec3& normal);
 
-// Coordinates beyond this are refused: their squares would overflow.
-inline constexpr double kLargestCoordinate_m = 1e100;
+// Coordinates beyond this are refused: products of them would overflow.
+inline constexpr double kLargestCoordinate_m = 1e30;
 
 // Whether the curve is sound: finite numbers, orthonormal frames, clamped ascending knots,
 // positive weights. Of a curve that is not, measures are zero and boxes empty.

@@ -85,7 +85,7 @@ double Gauss8Squared(const F& f, const Cell& cell) {
 }
 
 // ∫∫ f over the cell to about the absolute tolerance, quartering where the rule disagrees with
-// its quarters; `evaluations_left` bounds the work.
+// its quarters; `cells_left` bounds the work.
 template <class F>
 double IntegrateAdaptively(const F& f, const Cell& cell, double whole, double tolerance,
                            long& cells_left) {

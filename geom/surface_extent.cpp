@@ -10,7 +10,7 @@
 namespace tranos::geom {
 namespace {
 
-constexpr int kMaxNodes = 20'000;
+constexpr int kMaxNodes = 4'000;
 constexpr int kDeepest = 12;
 
 template <class F>

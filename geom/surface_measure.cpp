@@ -9,7 +9,7 @@ namespace tranos::geom {
 namespace {
 
 constexpr Cell kUnitCell = {0, 1, 0, 1};
-constexpr long kMaxCells = 60'000;
+constexpr long kMaxCells = 40'000;
 // An area element more upright than this is a wall.
 constexpr double kUpright = 1e-9;
 // Interior parameters at which the plan is examined: Gauss nodes, which no symmetry favours.

@@ -61,7 +61,7 @@ std::vector<Curve> DegenerateCurves() {
   return {Line{p, p}, Arc{{}, 0, 1}, Arc{{}, 1, 0}, Circle{{}, 0}, Polyline{{p}, false},
           Polyline{{p, p, p}, true}, BsplineCurve{2, {0, 0, 0, 1, 1, 1}, {p, p, p}, {}},
           Chain{{Line{p, p}, Line{p, p}}, true}, Line{{1e-300, 0, 0}, {0, 0, 0}},
-          Line{{1e99, 0, 0}, {-1e99, 0, 0}}, Circle{{}, 1e99}};
+          Line{{1e29, 0, 0}, {-1e29, 0, 0}}, Circle{{}, 1e29}};
 }
 
 TEST(Hostile, CurvesWithoutExtentAndHugeOnesHaveFiniteMeasures) {
