@@ -43,7 +43,9 @@ model::Value Convert(const model::Value& value, Type type, const Unit& unit, std
 // "a length", "a list of 3", "a line", … for messages.
 std::string Describe(const model::Value& value);
 // Text for print and "{…}": lengths in the unit with its name; decimals < 0 for as many as needed.
-std::string Format(const model::Value& value, const Unit& unit, int decimals);
+// With the sources, deviations are shown: "35.5 m ± 0.71 m".
+std::string Format(const model::Value& value, const Unit& unit, int decimals,
+                   const SourceList* sources = nullptr);
 // A key-in's text of a value that reads back as the same value: `3.5m`, `[1m,2m,3m]`, `"text"`.
 std::string KeyInText(const model::Value& value);
 geom::Vec3 PointOf(const model::Value& value);  // of one converted to kPoint

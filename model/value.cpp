@@ -47,6 +47,7 @@ Value Value::OfElement(std::shared_ptr<const Element> element) {
   return Make(Kind::kElement, kPlain, std::move(element));
 }
 Value Value::OfClosure(Closure closure) { return Make(Kind::kClosure, kPlain, std::move(closure)); }
+Value Value::OfRecord(Record record) { return Make(Kind::kRecord, kPlain, std::move(record)); }
 Value Value::OfPoint(const geom::Vec3& point_m) {
   return List(
       {Number(point_m.x(), kLength), Number(point_m.y(), kLength), Number(point_m.z(), kLength)});
@@ -66,6 +67,7 @@ const std::shared_ptr<const Element>& Value::element() const {
   return Get<std::shared_ptr<const Element>>();
 }
 const Closure& Value::closure() const { return Get<Closure>(); }
+const Record& Value::record() const { return Get<Record>(); }
 
 void Value::AddReference() const { ++heap_->references; }
 
@@ -87,6 +89,8 @@ void Value::DropReference() {
       return free_as.operator()<std::shared_ptr<const Element>>();
     case Kind::kClosure:
       return free_as.operator()<Closure>();
+    case Kind::kRecord:
+      return free_as.operator()<Record>();
     case Kind::kNone:
     case Kind::kNumber:
     case Kind::kBoolean:
@@ -111,6 +115,21 @@ void Value::FreeList() {
 }
 
 namespace {
+
+// Records are small, and hold no other records but those that were made with them.
+bool SameRecord(const Record& a, const Record& b) {
+  if (a.type != b.type || a.members.size() != b.members.size()) return false;
+  for (std::size_t i = 0; i < a.members.size(); ++i) {
+    if (a.members[i].first != b.members[i].first) return false;
+    if (!Same(a.members[i].second, b.members[i].second)) return false;
+  }
+  return true;
+}
+
+void AddRecord(Hasher& hasher, const Record& record) {
+  hasher.Text(record.type).Integer(static_cast<std::int64_t>(record.members.size()));
+  for (const auto& [name, member] : record.members) AddToHash(hasher.Text(name), member);
+}
 
 bool SameFrame(const geom::Frame& a, const geom::Frame& b) {
   return a.origin == b.origin && a.x == b.x && a.y == b.y;
@@ -140,6 +159,8 @@ bool SameButForItems(const Value& a, const Value& b) {
       return a.element()->hash == b.element()->hash;
     case Value::Kind::kClosure:
       return a.closure().code == b.closure().code;
+    case Value::Kind::kRecord:
+      return SameRecord(a.record(), b.record());
   }
   return false;
 }
@@ -192,6 +213,9 @@ void AddButForItems(Hasher& hasher, const Value& value) {
       break;
     case Value::Kind::kClosure:
       break;  // its code has no bytes that are the same in every run
+    case Value::Kind::kRecord:
+      AddRecord(hasher, value.record());
+      break;
   }
 }
 

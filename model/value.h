@@ -32,6 +32,7 @@ struct Uncertain {
 struct ValueRange {
   double from, to;  // both ends in
 };
+struct Record;
 // A function as a value; `code` is interp's own, carried and never read here.
 struct Closure {
   std::shared_ptr<const void> code;
@@ -50,6 +51,7 @@ class Value {
     kPlane,
     kElement,
     kClosure,
+    kRecord,
   };
 
   Value() = default;
@@ -73,6 +75,7 @@ class Value {
   static Value Plane(const geom::Frame& plane);
   static Value OfElement(std::shared_ptr<const Element> element);
   static Value OfClosure(Closure closure);
+  static Value OfRecord(Record record);
   static Value OfPoint(const geom::Vec3& point_m);  // a list of three lengths
 
   Value(const Value& other) { CopyFrom(other); }
@@ -112,6 +115,7 @@ class Value {
   const geom::Frame& plane() const;
   const std::shared_ptr<const Element>& element() const;
   const Closure& closure() const;
+  const Record& record() const;
 
   // A number in place, without derivatives: the interpreter's fast path.
   bool fast_number() const { return kind_ == Kind::kNumber; }
@@ -155,6 +159,19 @@ class Value {
   };
 };
 static_assert(sizeof(Value) == 16);
+
+// Named values that belong together: a bounding box, an interface.
+struct Record {
+  std::string type;  // "bounding box", for messages
+  std::vector<std::pair<std::string, Value>> members;
+
+  const Value* Find(std::string_view name) const {
+    for (const auto& [key, value] : members) {
+      if (key == name) return &value;
+    }
+    return nullptr;
+  }
+};
 
 // Same kind, dimension and content, derivatives included; elements by content.
 bool Same(const Value& a, const Value& b);

@@ -1,0 +1,337 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Members of elements: parameters, parts and interfaces of a placed one, names of a group, snaps
+// and measures.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "interp/value_support.h"
+
+namespace tranos::interp {
+
+using model::Element;
+using model::ElementPtr;
+using model::Value;
+
+namespace {
+
+Value Length(double length_m) { return Value::Number(length_m, model::kLength); }
+
+Value Direction(const geom::Vec3& unit) {
+  return Value::List({Value::Number(unit.x()), Value::Number(unit.y()), Value::Number(unit.z())});
+}
+
+Value BoxValue(const Element& element) {
+  const geom::Box box = model::BoundingBox(element);
+  if (box.empty())
+    throw OpFailure{Code::kWrongElement, "an empty " + model::TypeOf(element) + " has no box"};
+  if (!box.min.allFinite() || !box.max.allFinite()) {
+    throw OpFailure{Code::kNotFinite, "the bounding box is not finite"};
+  }
+  return Value::OfRecord({"bounding box",
+                          {{"min", Value::OfPoint(box.min)},
+                           {"max", Value::OfPoint(box.max)},
+                           {"size", Value::OfPoint(box.max - box.min)},
+                           {"centre", Value::OfPoint(box.centre())}}});
+}
+
+Value ColourValue(const Element& element) {
+  const model::Colour colour = element.attributes->colour;
+  if (colour.code >= model::Colour::kRgb) return Value::String(model::Describe(colour));
+  return Value::Number(colour.code);
+}
+
+// What every element has.
+using Reader = Value (*)(const Element&);
+struct Row {
+  std::string_view name;
+  Reader read;
+};
+constexpr Row kMeasures[] = {
+    {"length", [](const Element& e) { return Length(LengthOf(e)); }},
+    {"area", [](const Element& e) { return Value::Number(AreaOf(e), model::kArea); }},
+    {"volume", [](const Element& e) { return Value::Number(VolumeOf(e), model::kVolume); }},
+    {"bbox", BoxValue},
+    {"name", [](const Element& e) { return Value::String(std::string(e.name_or_empty())); }},
+    {"type", [](const Element& e) { return Value::String(model::TypeOf(e)); }},
+    {"level", [](const Element& e) { return Value::String(e.attributes->level); }},
+    {"colour", ColourValue},
+    {"color", ColourValue},
+    {"linestyle", [](const Element& e) { return Value::Number(e.attributes->linestyle); }},
+    {"weight", [](const Element& e) { return Value::Number(e.attributes->weight); }},
+    {"material", [](const Element& e) { return Value::String(e.attributes->material); }},
+    {"evidence",
+     [](const Element& e) { return Value::String(std::string(WordOf(e.attributes->evidence))); }},
+    {"source", [](const Element& e) { return Value::String(e.attributes->source); }},
+};
+
+// Snaps of a curve; nothing where this one has no such member.
+std::optional<Value> CurveMember(const CallContext& context, const geom::Curve& curve,
+                                 std::string_view name) {
+  const auto* arc = std::get_if<geom::Arc>(&curve);
+  const auto* circle = std::get_if<geom::Circle>(&curve);
+  if (name == "start") return Value::OfPoint(geom::PointAt(curve, 0));
+  if (name == "end") return Value::OfPoint(geom::PointAt(curve, 1));
+  if (name == "mid") return Value::OfPoint(geom::PointAtFraction(curve, 0.5));
+  if (name == "closed") return Value::Boolean(geom::IsClosed(curve));
+  if (arc || circle) {
+    if (name == "centre") return Value::OfPoint(arc ? arc->frame.origin : circle->frame.origin);
+    if (name == "radius") return Length(arc ? arc->radius : circle->radius);
+    if (name == "sweep") return Value::Number(arc ? arc->sweep_rad : 2 * geom::kPi, model::kAngle);
+  }
+  if (name == "centre" || name == "centroid") {
+    const geom::Result<geom::Vec3> centroid = geom::Centroid(curve);
+    if (!centroid)
+      throw FromGeomError(centroid.error(), "the curve has no `" + std::string(name) + "`");
+    return Value::OfPoint(*centroid);
+  }
+  if (name == "plane") {
+    const std::optional<geom::Frame> plane = geom::PlaneOf(curve);
+    if (!plane) throw OpFailure{Code::kNotPlanar, "the curve lies in no one plane"};
+    return Value::Plane(*plane);
+  }
+  if (const auto* line = std::get_if<geom::Line>(&curve); line && name == "direction") {
+    return Direction((line->end - line->start).normalized());
+  }
+  if (const auto* polyline = std::get_if<geom::Polyline>(&curve); polyline && name == "vertices") {
+    context.charge_items(polyline->vertices.size());
+    std::vector<Value> points;
+    for (const geom::Vec3& vertex : polyline->vertices) points.push_back(Value::OfPoint(vertex));
+    return Value::List(std::move(points));
+  }
+  return std::nullopt;
+}
+
+std::vector<std::string> CurveMembers(const geom::Curve& curve) {
+  std::vector<std::string> names = {"start", "end", "mid", "at(fraction)", "closed"};
+  const bool round =
+      std::holds_alternative<geom::Arc>(curve) || std::holds_alternative<geom::Circle>(curve);
+  if (round) names.insert(names.end(), {"centre", "radius", "sweep"});
+  if (!round && geom::IsClosed(curve)) names.insert(names.end(), {"centre", "centroid"});
+  if (!std::holds_alternative<geom::Line>(curve)) names.emplace_back("plane");
+  if (std::holds_alternative<geom::Line>(curve)) names.emplace_back("direction");
+  if (std::holds_alternative<geom::Polyline>(curve)) names.emplace_back("vertices");
+  return names;
+}
+
+// A part as it is seen through its placement. It stands in no model by itself, so it has no id.
+ElementPtr PlacedPart(const ElementPtr& part, const model::Instance& instance,
+                      const model::Attributes& placement) {
+  ElementPtr placed = model::Transformed(*part, instance.world_from_prototype);
+  if (!std::holds_alternative<model::GroupPtr>(part->geometry)) {
+    placed = model::WithAttributes(*placed, std::make_shared<const model::Attributes>(
+                                                model::Inherit(*part->attributes, placement)));
+  }
+  return model::WithId(*placed, model::kNoElement);
+}
+
+template <class Map>
+Value NamedValue(const CallContext& context, const model::NamedElements& named, const Map& map) {
+  context.charge_items(named.elements.size());
+  std::vector<Value> elements;
+  for (const ElementPtr& element : named.elements)
+    elements.push_back(Value::OfElement(map(element)));
+  if (!named.is_list && elements.size() == 1) return elements[0];
+  return Value::List(std::move(elements));
+}
+
+// By how much a placement scales every length; nothing if it stretches or shears.
+std::optional<double> ScaleOf(const geom::Affine& world_from_prototype) {
+  const Eigen::Matrix3d linear = world_from_prototype.linear();
+  const Eigen::Matrix3d square = linear.transpose() * linear;
+  const double scale_squared = square.trace() / 3;
+  if (!((square - scale_squared * Eigen::Matrix3d::Identity()).norm() <= 1e-12 * scale_squared)) {
+    return std::nullopt;
+  }
+  const double scale = std::sqrt(scale_squared);
+  return std::abs(scale - 1) <= 1e-12 ? 1 : scale;
+}
+
+// A mirror turns the frame's handedness; axis and direction keep their meaning, y follows.
+geom::Frame PlacedFrame(const geom::Frame& frame, const geom::Affine& world_from_prototype) {
+  const geom::Vec3 axis = (world_from_prototype.linear() * frame.z()).normalized();
+  const geom::Vec3 towards = world_from_prototype.linear() * frame.x;
+  const geom::Vec3 x = (towards - axis.dot(towards) * axis).normalized();
+  return {world_from_prototype * frame.origin, x, axis.cross(x)};
+}
+
+Value InterfaceValue(const model::Interface& interface, const geom::Affine& world_from_prototype) {
+  const geom::Frame frame = PlacedFrame(interface.frame, world_from_prototype);
+  model::Record record{"interface",
+                       {{"name", Value::String(interface.name)},
+                        {"at", Value::OfPoint(frame.origin)},
+                        {"axis", Direction(frame.z())},
+                        {"dir", Direction(frame.x)},
+                        {"plane", Value::Plane(frame)}}};
+  const std::optional<double> scale = ScaleOf(world_from_prototype);
+  for (const auto& [name, measure] : interface.measures) {
+    const bool scales =
+        measure.is_number() && measure.dimension().base == model::Dimension::kLength;
+    if (!scales) {
+      record.members.emplace_back(name, measure);
+    } else if (scale) {  // under a stretch a measure has no one value
+      const double factor = std::pow(*scale, measure.dimension().exponent);
+      record.members.emplace_back(
+          name, Chain(measure, factor * measure.number(), factor, measure.dimension()));
+    }
+  }
+  return Value::OfRecord(std::move(record));
+}
+
+const model::Interface* FindInterface(const model::Prototype& prototype, std::string_view name) {
+  for (const model::Interface& interface : prototype.interfaces) {
+    if (interface.name == name) return &interface;
+  }
+  return nullptr;
+}
+
+std::optional<Value> InstanceMember(const CallContext& context, const model::Instance& instance,
+                                    const model::Attributes& placement, std::string_view name) {
+  const model::Prototype& prototype = *instance.prototype;
+  for (const auto& [parameter, value] : prototype.parameters) {
+    if (parameter == name) return value;
+  }
+  for (const model::NamedElements& named : prototype.names) {
+    if (named.name != name) continue;
+    return NamedValue(context, named, [&](const ElementPtr& part) {
+      return PlacedPart(part, instance, placement);
+    });
+  }
+  if (const model::Interface* interface = FindInterface(prototype, name)) {
+    return InterfaceValue(*interface, instance.world_from_prototype);
+  }
+  return std::nullopt;
+}
+
+std::optional<Value> GroupMember(const CallContext& context, const Element& element,
+                                 const model::Group& group, std::string_view name) {
+  for (const model::NamedElements& named : group.names) {
+    if (named.name != name) continue;
+    // A group that is a part of a placed one is not in the model, and neither are its members.
+    const bool in_model = element.id < context.state->model.entries.size();
+    return NamedValue(context, named, [&](const ElementPtr& member) {
+      return in_model ? CurrentElement(*context.state, member)
+                      : model::WithId(*member, model::kNoElement);
+    });
+  }
+  return std::nullopt;
+}
+
+std::optional<Value> PlaceMember(const geom::Vec3& position, std::string_view name) {
+  if (name == "position") return Value::OfPoint(position);
+  if (name == "x") return Length(position.x());
+  if (name == "y") return Length(position.y());
+  if (name == "z") return Length(position.z());
+  return std::nullopt;
+}
+
+// What only this kind of element has.
+std::optional<Value> OwnMember(const CallContext& context, const Element& element,
+                               std::string_view name) {
+  if (const auto* point = std::get_if<model::Point>(&element.geometry)) {
+    return PlaceMember(point->position, name);
+  }
+  if (const geom::Curve* curve = CurveOf(element)) return CurveMember(context, *curve, name);
+  if (const auto* text = std::get_if<model::TextPtr>(&element.geometry)) {
+    if (name == "text") return Value::String((*text)->content);
+    if (name == "height") return Length((*text)->height_m);
+    if (name == "plane") return Value::Plane((*text)->frame);
+    return PlaceMember((*text)->frame.origin, name);
+  }
+  if (const auto* group = std::get_if<model::GroupPtr>(&element.geometry)) {
+    return GroupMember(context, element, **group, name);
+  }
+  if (const auto* instance = std::get_if<model::InstancePtr>(&element.geometry)) {
+    return InstanceMember(context, **instance, *element.attributes, name);
+  }
+  return std::nullopt;
+}
+
+std::vector<std::string> OwnMembers(const Element& element) {
+  if (std::holds_alternative<model::Point>(element.geometry)) return {"position", "x", "y", "z"};
+  if (const geom::Curve* curve = CurveOf(element)) return CurveMembers(*curve);
+  if (SurfaceOf(element)) return {"point(u, v)", "normal(u, v)"};
+  if (std::holds_alternative<model::TextPtr>(element.geometry)) {
+    return {"text", "height", "plane", "position", "x", "y", "z"};
+  }
+  std::vector<std::string> names;
+  if (const auto* group = std::get_if<model::GroupPtr>(&element.geometry)) {
+    for (const model::NamedElements& named : (*group)->names) names.push_back(named.name);
+  }
+  if (const auto* instance = std::get_if<model::InstancePtr>(&element.geometry)) {
+    const model::Prototype& prototype = *(*instance)->prototype;
+    for (const auto& [name, value] : prototype.parameters) names.push_back(name);
+    for (const model::NamedElements& named : prototype.names) names.push_back(named.name);
+    for (const model::Interface& interface : prototype.interfaces) names.push_back(interface.name);
+  }
+  return names;
+}
+
+std::vector<std::string> MembersOf(const Element& element) {
+  std::vector<std::string> names = OwnMembers(element);
+  for (const Row& row : kMeasures) names.emplace_back(row.name);
+  return names;
+}
+
+double FractionArgument(Arguments arguments, std::size_t index) {
+  const double fraction = PlainArgument(arguments, static_cast<int>(index)).number();
+  if (fraction >= 0 && fraction <= 1) return fraction;
+  throw OpFailure{Code::kOutOfRange, "a fraction lies from 0 to 1, but this is " + Digits(fraction),
+                  "", "", static_cast<int>(index)};
+}
+
+void CheckCount(std::string_view usage, Arguments arguments, std::size_t count) {
+  if (arguments.size() == count) return;
+  throw OpFailure{Code::kWrongCount, "it is given " + std::to_string(arguments.size()) + " values",
+                  std::string(usage)};
+}
+
+Value Face(const model::Instance& instance, Arguments arguments) {
+  CheckCount("face(name)", arguments, 1);
+  if (!arguments[0].is_string()) FailArgument(arguments, 0, "the name of a face");
+  const model::Prototype& prototype = *instance.prototype;
+  if (const model::Interface* face = FindInterface(prototype, arguments[0].string())) {
+    return InterfaceValue(*face, instance.world_from_prototype);
+  }
+  std::vector<std::string> names;
+  for (const model::Interface& interface : prototype.interfaces) names.push_back(interface.name);
+  FailMember(WithArticle(prototype.words), arguments[0].string(), names);
+}
+
+}  // namespace
+
+Value ElementMember(const CallContext& context, const ElementPtr& named, std::string_view name) {
+  const ElementPtr element = CurrentElement(*context.state, named);
+  if (std::optional<Value> own = OwnMember(context, *element, name)) return *std::move(own);
+  for (const Row& row : kMeasures) {
+    if (row.name == name) return row.read(*element);
+  }
+  FailMember(WithArticle(model::TypeOf(*element)), name, MembersOf(*element));
+}
+
+Value ElementMethod(const CallContext& context, const ElementPtr& named, std::string_view name,
+                    Arguments arguments) {
+  const ElementPtr element = CurrentElement(*context.state, named);
+  if (const geom::Curve* curve = CurveOf(*element); curve && name == "at") {
+    CheckCount("at(fraction)", arguments, 1);
+    return Value::OfPoint(geom::PointAtFraction(*curve, FractionArgument(arguments, 0)));
+  }
+  if (const geom::Surface* surface = SurfaceOf(*element);
+      surface && (name == "point" || name == "normal")) {
+    CheckCount(name == "point" ? "point(u, v)" : "normal(u, v)", arguments, 2);
+    const double u = FractionArgument(arguments, 0), v = FractionArgument(arguments, 1);
+    return name == "point" ? Value::OfPoint(geom::PointAt(*surface, u, v))
+                           : Direction(geom::NormalAt(*surface, u, v));
+  }
+  if (const auto* instance = std::get_if<model::InstancePtr>(&element->geometry);
+      instance && name == "face") {
+    return Face(**instance, arguments);
+  }
+  const Value member = ElementMember(context, element, name);
+  throw OpFailure{Code::kWrongType,
+                  "`" + Printable(name) + "` is " + Describe(member) + ", and is not called", "",
+                  "write it without ( )"};
+}
+
+}  // namespace tranos::interp
