@@ -24,6 +24,12 @@ double DistanceTo(const Box& box, const Vec3& p) {
   return (box.min - p).cwiseMax(p - box.max).cwiseMax(0.0).norm();
 }
 
+// To its farthest corner: no farther is whatever the box holds.
+double FarDistanceTo(const Box& box, const Vec3& p) {
+  if (box.empty()) return kInfinity;
+  return (box.max - p).cwiseMax(p - box.min).norm();
+}
+
 double DistanceToLine(const geom::Line& line, const Vec3& p) {
   const Vec3 along = line.end - line.start, from_start = p - line.start;
   const double squared = along.squaredNorm();
@@ -153,7 +159,7 @@ class Search {
   }
 
   void Consider(const ElementPtr& element) {
-    if (IsComposite(*element)) return Wait(element, BoundOf(*element));
+    if (IsComposite(*element)) return Wait(element, VisibleBox(*element));
     if (!IsOn(*element->attributes)) return;
     if (const auto* point = std::get_if<model::Point>(&element->geometry)) {
       return Add(element, (point->position - p_).norm(), 0);
@@ -163,11 +169,14 @@ class Search {
         return Add(element, DistanceToLine(*line, p_), 1);
       }
     }
-    Wait(element, DistanceTo(RoughBoxOf(*element), p_));
+    Wait(element, RoughBoxOf(*element));
   }
 
-  void Wait(const ElementPtr& element, double bound) {
-    if (bound <= best_ + kTie_m) waiting_.push_back({bound, &element});
+  void Wait(const ElementPtr& element, const Box& box) {
+    const double bound = DistanceTo(box, p_);
+    if (bound > std::min(best_, reach_) + kTie_m) return;
+    reach_ = std::min(reach_, FarDistanceTo(box, p_));
+    waiting_.push_back({bound, &element});
   }
 
   void Add(const ElementPtr& element, double distance, int rank) {
@@ -177,15 +186,14 @@ class Search {
     hits_.push_back({distance, rank, &element});
   }
 
-  // Infinite if no part of it is on a level that is on.
-  double BoundOf(const Element& element) const {
-    double bound = kInfinity;
+  // Around its parts on levels that are on.
+  Box VisibleBox(const Element& element) const {
+    Box box;
     model::ForEachLeaf(element, [&](const Element& leaf, const geom::Affine& world_from_leaf,
                                     const model::Attributes& attributes) {
-      if (!IsOn(attributes)) return;
-      bound = std::min(bound, DistanceTo(Transformed(RoughBoxOf(leaf), world_from_leaf), p_));
+      if (IsOn(attributes)) box.Add(Transformed(RoughBoxOf(leaf), world_from_leaf));
     });
-    return bound;
+    return box;
   }
 
   void Measure(const ElementPtr& element) {
@@ -208,7 +216,8 @@ class Search {
 
   const model::Model& model_;
   const Vec3 p_;
-  double best_ = kInfinity;
+  double best_ = kInfinity;   // the least distance measured
+  double reach_ = kInfinity;  // and one that some element waiting is sure to be within
   std::vector<Hit> hits_;
   std::vector<Waiting> waiting_;
 };

@@ -202,11 +202,15 @@ constexpr Example kRectangularExamples[] = {
     {"place point xy=0,0,0\narray rectangular of=last columns=3 rows=2 column_spacing=2m "
      "row_spacing=1m",
      "len(last) == 5"},
+    {"place point xy=0,0,0; array rectangular of=last layers=3 layer_spacing=4m",
+     "last[1].bbox.min.z == 8m"},
     {"place point xy=0,0,0; array rectangular of=last columns=1", "E0212"}};
 constexpr Example kPolarExamples[] = {
     {"place point xy=1,0,0; array polar of=last count=4 xy=0,0,0", "len(last) == 3"},
     {"place point xy=1,0,0; array polar of=last count=3 angle=180 xy=0,0,0",
      "last[1].bbox.min.x within -1m +- 0.000001m"},
+    {"place line xy=1,0,0 dl=1; array polar of=last count=3 angle=90 align=false xy=0,0,0",
+     "last[1].bbox.max.x within 0.5m +- 0.000001m"},
     {"place point xy=1,0,0; array polar of=last count=1 xy=0,0,0", "E0212"}};
 constexpr Example kPathExamples[] = {
     {"place line xy=0,0,0 dl=10 as rail; place point xy=0,0,0 as post\n"
@@ -215,6 +219,9 @@ constexpr Example kPathExamples[] = {
     {"place line xy=0,0,0 dl=10 as rail; place point xy=0,0,0 as post\n"
      "array path of=post path=rail spacing=4m",
      "len(last) == 2"},
+    {"place arc center xy=5,0,0 xy=0,0,0 xy=0,5,0 as rail; place line xy=5,0,0 dl=1 as spoke\n"
+     "array path of=spoke path=rail count=2 align=false",
+     "last.bbox.max.x within 1m +- 0.000001m"},
     {"place point xy=0,0,0 as post; array path of=post path=post count=6", "E0410"}};
 
 constexpr Command kCommands[] = {

@@ -448,7 +448,7 @@ constexpr Command kCommands[] = {
        kTypeKeys, kType, Carry<OfType, kReplace>),
     By("choose material", "Chooses what is of the materials named.", kMaterialKeys, kMaterial,
        Carry<OfMaterial, kReplace>),
-    By("choose evidence", "Chooses what stands on this evidence: `photo`, `conjecture` …",
+    By("choose evidence", "Chooses what stands on this evidence: `photo`, `conjecture`.",
        kEvidenceKeys, kEvidence, Carry<OfEvidence, kReplace>),
     FenceRow(
         "choose fence",

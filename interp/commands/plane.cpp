@@ -92,6 +92,8 @@ constexpr Key kKeys[] = {{"at", Type::kPoint, "its origin"},
 constexpr Example kExamples[] = {
     {"set plane front; place circle xy=0,0,0 radius=2", "last.bbox.max.z within 2m +- 0.000001m"},
     {"set plane at=[0,0,3] normal=[1,0,0]; place line ax=0,0 dl=4", "last.bbox.max.y == 4m"},
+    {"set plane normal=[0,0,1] x=[0,1,0]; place line ax=0,0 dl=4", "last.bbox.max.y == 4m"},
+    {"set plane of=5", "E0203"},
     {"set plane normal=[0,0,0]", "E0501"}};
 
 constexpr Command kCommands[] = {

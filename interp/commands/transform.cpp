@@ -93,6 +93,8 @@ constexpr Example kRotateExamples[] = {
 constexpr Example kRotateCopyExamples[] = {
     {"place line xy=0,0,0 dl=30; choose last; aa=90; rotate copy xy=30,0,0 xy=30,-30,0 reset",
      "last.bbox.min.y == -30m"},
+    {"place line xy=0,0,0 dl=10; choose last; rotate copy angle=180 xy=0,0,0",
+     "last.bbox.min.x == -10m"},
     {"rotate copy xy=0,0,0", "E0404"}};
 constexpr Example kMirrorExamples[] = {
     {"place point xy=3,1,0; choose last; mirror xy=0,0,0 xy=0,9,0",
