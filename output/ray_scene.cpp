@@ -162,7 +162,6 @@ Result<RayScene> RayScene::Of(const std::vector<RaySurface>& surfaces) {
 HitPacket RayScene::FirstHits(const RayPacket& rays) const {
   Context context;
   rtcInitIntersectContext(&context.base);
-  context.base.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
   context.depth.fill(-1);
   RTCRayHit16 query;
   FillRays(rays, -Eigen::Vector3f::UnitZ(), query.ray);
@@ -170,6 +169,8 @@ HitPacket RayScene::FirstHits(const RayPacket& rays) const {
   valid.fill(-1);
   std::fill_n(query.hit.geomID, kPacket, kNone);
   std::fill_n(query.hit.instID[0], kPacket, kNone);
+  // Without the flag for coherent rays: with it Embree 3.13 was seen to run for ever over
+  // instances, and it gained nothing.
   rtcIntersect16(valid.data(), trees_->world.handle, &context.base, &query);
   HitPacket hits;
   for (unsigned i = 0; i < kPacket; ++i) {
@@ -188,7 +189,6 @@ void RayScene::DropOccluded(const RayPacket& rays, const Eigen::Vector3f& direct
                             LanePacket& lanes) const {
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
-  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
   RTCRay16 query;
   FillRays(rays, direction, query);
   alignas(64) std::array<int, kPacket> valid;

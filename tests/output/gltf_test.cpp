@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "output/gltf.h"
+
+#include <gtest/gtest.h>
+#include <tiny_gltf.h>
+
+#include <cstring>
+
+#include "output/write.h"
+#include "tests/output/models.h"
+
+namespace tranos::output {
+namespace {
+
+using geom::Vec3;
+
+tinygltf::Model ReadBack(const std::string& glb) {
+  tinygltf::Model file;
+  std::string error, warning;
+  EXPECT_TRUE(tinygltf::TinyGLTF().LoadBinaryFromMemory(
+      &file, &error, &warning, reinterpret_cast<const unsigned char*>(glb.data()),
+      static_cast<unsigned>(glb.size())))
+      << error;
+  EXPECT_EQ(error + warning, "");
+  return file;
+}
+std::string Extra(const tinygltf::Node& node, const char* key) {
+  return node.extras.Get(key).Get<std::string>();
+}
+Vec3 Translation(const tinygltf::Node& node) {
+  return node.translation.empty() ? Vec3::Zero() : Vec3(Vec3::Map(node.translation.data()));
+}
+Vec3 Vertex(const tinygltf::Model& file, int mesh, std::size_t index) {
+  const auto& primitive = file.meshes[mesh].primitives[0];
+  const auto& accessor = file.accessors[primitive.attributes.at("POSITION")];
+  const auto& view = file.bufferViews[accessor.bufferView];
+  float xyz[3];
+  std::memcpy(xyz, &file.buffers[0].data[view.byteOffset + accessor.byteOffset + 12 * index], 12);
+  return {xyz[0], xyz[1], xyz[2]};
+}
+
+TEST(Gltf, FarLineKeepsItsMillimetres) {
+  const Vec3 a(500000, 4649776.125, 12), b(500000.001, 4649776.125, 12);
+  const tinygltf::Model file = ReadBack(*GlbOf(ModelOf({LineOf(a, b)}), {}));
+  ASSERT_EQ(file.nodes.size(), 2u);
+  EXPECT_EQ(file.meshes[0].primitives[0].mode, TINYGLTF_MODE_LINE);
+  const Vec3 centre = Translation(file.nodes[1]);
+  EXPECT_LT((centre + Vertex(file, 0, 0) - a).norm(), 1e-8);
+  EXPECT_LT((centre + Vertex(file, 0, 1) - b).norm(), 1e-8);
+}
+
+TEST(Gltf, RootTurnsZUpIntoYUp) {
+  const tinygltf::Model file = ReadBack(*GlbOf(ModelOf({LineOf({0, 0, 0}, {1, 0, 0})}), {}));
+  const auto& q = file.nodes[0].rotation;
+  const Vec3 up = Eigen::Quaterniond(q[3], q[0], q[1], q[2]) * Vec3::UnitZ();
+  EXPECT_LT((up - Vec3::UnitY()).norm(), 1e-12);
+}
+
+TEST(Gltf, ExtrasTellNameLevelAndEvidence) {
+  model::Attributes attributes;
+  attributes.level = "walls";
+  attributes.evidence = model::Evidence::kPhoto;
+  attributes.source = "plate 12";
+  const auto element = ElementOf(model::Point{{1, 2, 3}}, attributes, "north \"a\"\n");
+  const tinygltf::Model file = ReadBack(*GlbOf(ModelOf({element}), {}));
+  const tinygltf::Node& node = file.nodes[1];
+  EXPECT_EQ(node.name, "north \"a\"\n");
+  EXPECT_EQ(Extra(node, "level"), "walls");
+  EXPECT_EQ(Extra(node, "evidence"), "photo");
+  EXPECT_EQ(Extra(node, "source"), "plate 12");
+  EXPECT_EQ(Extra(node, "type"), "point");
+  EXPECT_EQ(Translation(node), Vec3(1, 2, 3));
+}
+
+TEST(Gltf, InstancesAndEqualPointsShareMeshes) {
+  const auto prototype = std::make_shared<model::Prototype>();
+  prototype->words = "ball";
+  prototype->parts = {SphereOf()};
+  std::vector<model::ElementPtr> elements;
+  for (int i = 0; i < 10; ++i) {
+    const auto instance = std::make_shared<model::Instance>();
+    instance->prototype = prototype;
+    instance->world_from_prototype = Eigen::Translation3d(3.0 * i, 0, 0);
+    elements.push_back(ElementOf(model::InstancePtr(instance)));
+    elements.push_back(ElementOf(model::Point{{3.0 * i, 5, 0}}));
+  }
+  const tinygltf::Model file = ReadBack(*GlbOf(ModelOf(elements), {}));
+  EXPECT_EQ(file.meshes.size(), 2u);
+  EXPECT_EQ(file.nodes[0].children.size(), 20u);
+}
+
+TEST(Gltf, ShearedInstanceLandsWhereItShould) {
+  const auto prototype = std::make_shared<model::Prototype>();
+  prototype->words = "bar";
+  prototype->parts = {LineOf({1, 2, 3}, {2, 4, 7})};
+  const auto instance = std::make_shared<model::Instance>();
+  instance->prototype = prototype;
+  instance->world_from_prototype.linear() << 1, 0.5, 0, 0, -2, 0.25, 0.1, 0, 3;
+  instance->world_from_prototype.translation() = Vec3(7, 8, 9);
+  const tinygltf::Model file =
+      ReadBack(*GlbOf(ModelOf({ElementOf(model::InstancePtr(instance))}), {}));
+  int index = file.nodes[0].children[0];
+  geom::Affine world = geom::Affine::Identity();
+  for (;;) {
+    const tinygltf::Node& node = file.nodes[index];
+    world.translate(Translation(node));
+    if (!node.rotation.empty()) {
+      const auto& q = node.rotation;
+      world.rotate(Eigen::Quaterniond(q[3], q[0], q[1], q[2]));
+    }
+    if (!node.scale.empty()) world.scale(Vec3(Vec3::Map(node.scale.data())));
+    if (node.children.empty()) break;
+    index = node.children[0];
+  }
+  EXPECT_LT((world * Vertex(file, 0, 0) - instance->world_from_prototype * Vec3(1, 2, 3)).norm(),
+            1e-6);
+  EXPECT_LT((world * Vertex(file, 0, 1) - instance->world_from_prototype * Vec3(2, 4, 7)).norm(),
+            1e-6);
+}
+
+TEST(Gltf, HiddenLevelsStayOut) {
+  model::Model model = ModelOf({LineOf({0, 0, 0}, {1, 0, 0})});
+  model.hidden_levels = std::make_shared<const std::vector<std::string>>(1, "1");
+  EXPECT_TRUE(ReadBack(*GlbOf(model, {})).nodes[0].children.empty());
+}
+
+TEST(Gltf, SameModelSameBytes) {
+  EXPECT_EQ(*GlbOf(ModelOf({SphereOf()}), {}), *GlbOf(ModelOf({SphereOf()}), {}));
+}
+
+TEST(Gltf, TooLargeIsAnError) {
+  EXPECT_FALSE(GlbOf(ModelOf({SphereOf()}), {.max_bytes = 1000}).has_value());
+}
+
+TEST(Write, UnknownExtensionListsThoseThereAre) {
+  const auto result = ExportOf(ModelOf({}), "church.dwg");
+  ASSERT_FALSE(result.has_value());
+  EXPECT_NE(result.error().message.find(".glb"), std::string::npos);
+  EXPECT_TRUE(ExportOf(ModelOf({}), "a.b/church.GLB").has_value());
+}
+
+}  // namespace
+}  // namespace tranos::output

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Small models for the tests of output.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "model/edit.h"
+
+namespace tranos::output {
+
+inline model::Model ModelOf(std::vector<model::ElementPtr> elements) {
+  model::Edit edit;
+  edit.added = std::move(elements);
+  return model::Apply(model::State{}, edit).state.model;
+}
+inline model::ElementPtr ElementOf(model::Geometry geometry, model::Attributes attributes = {},
+                                   const char* name = nullptr) {
+  return model::MakeElement(model::kNoElement, std::move(geometry),
+                            std::make_shared<const model::Attributes>(std::move(attributes)),
+                            name ? std::make_shared<const std::string>(name) : nullptr, {});
+}
+inline model::ElementPtr LineOf(const geom::Vec3& a, const geom::Vec3& b,
+                                model::Attributes attributes = {}) {
+  return ElementOf(std::make_shared<const geom::Curve>(geom::Line{a, b}), std::move(attributes));
+}
+// The rectangle from (x, y0, z) to (x + width, y0, z + height), which faces the front view.
+inline model::ElementPtr WallOf(const geom::Vec3& corner, double width, double height) {
+  return ElementOf(std::make_shared<const geom::Surface>(*geom::Extrusion(
+      geom::Line{corner, corner + geom::Vec3(width, 0, 0)}, geom::Vec3(0, 0, height))));
+}
+// A sphere of radius 1 about the origin: half a circle turned about z.
+inline model::ElementPtr SphereOf() {
+  const geom::Arc half =
+      *geom::ArcThrough(-geom::Vec3::UnitZ(), geom::Vec3::UnitX(), geom::Vec3::UnitZ());
+  return ElementOf(std::make_shared<const geom::Surface>(
+      *geom::Revolution(half, geom::Vec3::Zero(), geom::Vec3::UnitZ(), 2 * geom::kPi)));
+}
+
+}  // namespace tranos::output
