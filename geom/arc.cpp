@@ -27,10 +27,14 @@ CosSin ExactCosSin(double angle_rad) {
   if (std::abs(quarters - whole) <= 4e-16 * std::max(1.0, std::abs(whole)) &&
       std::abs(whole) < 1e9) {
     switch (static_cast<long>(whole) & 3) {
-      case 0: return {1, 0};
-      case 1: return {0, 1};
-      case 2: return {-1, 0};
-      default: return {0, -1};
+      case 0:
+        return {1, 0};
+      case 1:
+        return {0, 1};
+      case 2:
+        return {-1, 0};
+      default:
+        return {0, -1};
     }
   }
   return {std::cos(angle_rad), std::sin(angle_rad)};

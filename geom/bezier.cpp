@@ -137,8 +137,8 @@ std::vector<BezierSpan> BezierSpansOf(const Arc& arc) {
     const CosSin a = ExactCosSin(from), b = ExactCosSin(to);
     // The tangents' meeting point is (e_a + e_b) / (1 + e_a·e_b) from the centre.
     const double scale = arc.radius / (1 + a.cos * b.cos + a.sin * b.sin);
-    const Vec3 tip = arc.frame.origin +
-                     scale * ((a.cos + b.cos) * arc.frame.x + (a.sin + b.sin) * arc.frame.y);
+    const Vec3 tip =
+        arc.frame.origin + scale * ((a.cos + b.cos) * arc.frame.x + (a.sin + b.sin) * arc.frame.y);
     spans[i].begin = static_cast<double>(i) / count;
     spans[i].end = static_cast<double>(i + 1) / count;
     spans[i].poles.resize(4, 3);
@@ -152,7 +152,8 @@ std::vector<BezierSpan> BezierSpansOf(const Arc& arc) {
 BsplineCurve JoinSpans(const std::vector<BezierSpan>& spans) {
   BsplineCurve joined;
   if (spans.empty()) return joined;
-  for (const BezierSpan& span : spans) joined.degree = std::max(joined.degree, DegreeOf(span.poles));
+  for (const BezierSpan& span : spans)
+    joined.degree = std::max(joined.degree, DegreeOf(span.poles));
   joined.knots.assign(joined.degree + 1, 0.0);
   bool rational = false;
   double scale = 1;

@@ -26,7 +26,8 @@ A Product(const A& a, const Row& b) {
   A product = A::Zero(a.rows(), p + q + 1);
   for (int i = 0; i <= p; ++i) {
     for (int j = 0; j <= q; ++j) {
-      product.col(i + j) += Binomial(p, i) * Binomial(q, j) / Binomial(p + q, i + j) * b(j) * a.col(i);
+      product.col(i + j) +=
+          Binomial(p, i) * Binomial(q, j) / Binomial(p + q, i + j) * b(j) * a.col(i);
     }
   }
   return product;

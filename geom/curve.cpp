@@ -52,7 +52,8 @@ tl::expected<void, Error> CheckOne(const BsplineCurve& c) {
   for (const double w : c.weights) {
     if (!(w >= 1e-9 && w <= 1e9)) return Refuse("a weight is not between 1e-9 and 1e9");
   }
-  if (!AreClampedKnots(c.knots, c.degree)) return Refuse("the knots do not ascend or are not clamped");
+  if (!AreClampedKnots(c.knots, c.degree))
+    return Refuse("the knots do not ascend or are not clamped");
   return {};
 }
 

@@ -67,17 +67,18 @@ tl::expected<void, Error> Check(const Curve&);
 bool AreClampedKnots(const std::vector<double>& knots, int degree);
 
 // Curves joined to one chain, each turned round where needed, the first keeping its direction if
-// possible; order as given. kDoNotMeet with the index of the first that does not reach the one before.
+// possible; order as given. kDoNotMeet with the index of the first that does not reach the one
+// before.
 Result<Chain> JoinChain(const std::vector<Curve>& curves, double tolerance_m = 1e-6);
 
-Vec3 PointAt(const Curve&, double t);             // at the natural parameter, clamped to [0, 1]
+Vec3 PointAt(const Curve&, double t);                 // at the natural parameter, clamped to [0, 1]
 Vec3 PointAtFraction(const Curve&, double fraction);  // at this fraction of its length
-Vec3 TangentAt(const Curve&, double t);           // unit, in the direction of travel
+Vec3 TangentAt(const Curve&, double t);               // unit, in the direction of travel
 bool IsClosed(const Curve&);
-double Length(const Curve&);                      // m; 1e-9 relative
-Result<double> EnclosedArea(const Curve&);        // m²; closed and planar, else an error
-Result<Vec3> Centroid(const Curve&);              // of the enclosed plane region
-Box BoundingBox(const Curve&);                    // tight to 1e-9 m
+double Length(const Curve&);                // m; 1e-9 relative
+Result<double> EnclosedArea(const Curve&);  // m²; closed and planar, else an error
+Result<Vec3> Centroid(const Curve&);        // of the enclosed plane region
+Box BoundingBox(const Curve&);              // tight to 1e-9 m
 // The plane a curve lies in, origin at its start; nothing for a straight or a twisted curve.
 std::optional<Frame> PlaneOf(const Curve&);
 

@@ -32,8 +32,7 @@ void RaiseToLargest(const BezierPoles& poles, int axis, double sign, double slac
       continue;
     }
     auto [left, right] = Split(part, 0.5);
-    best = std::max({best, sign * left(axis, 0) / left(3, 0),
-                     sign * right(axis, 0) / right(3, 0),
+    best = std::max({best, sign * left(axis, 0) / left(3, 0), sign * right(axis, 0) / right(3, 0),
                      sign * right(axis, right.cols() - 1) / right(3, right.cols() - 1)});
     open.push_back(std::move(left));
     open.push_back(std::move(right));

@@ -66,18 +66,17 @@ Vec3 IntegrateAlong(const Curve& curve, double scale, const F& of_jet) {
     auto f = [&](double t) -> Vec3 { return of_jet(jet_at(t)); };
     sum += IntegrateSpan<Vec3>(f, a, b, Gauss16(f, a, b), 1e-14 * scale, 20);
   };
-  ForEachPiece(curve, Overloaded{
-                          [&](const BsplineCurve& b, double, double) {
-                            for (const BezierSpan& span : BezierSpansOf(b)) {
-                              add([&](double s) { return JetOf(span.poles, s); }, 0.0, 1.0);
-                            }
-                          },
-                          [&](const auto& piece, double, double) {
-                            for (int i = 0; i < 4; ++i) {
-                              add([&](double t) { return JetOf(piece, t); }, 0.25 * i,
-                                  0.25 * (i + 1));
-                            }
-                          }});
+  ForEachPiece(curve, Overloaded{[&](const BsplineCurve& b, double, double) {
+                                   for (const BezierSpan& span : BezierSpansOf(b)) {
+                                     add([&](double s) { return JetOf(span.poles, s); }, 0.0, 1.0);
+                                   }
+                                 },
+                                 [&](const auto& piece, double, double) {
+                                   for (int i = 0; i < 4; ++i) {
+                                     add([&](double t) { return JetOf(piece, t); }, 0.25 * i,
+                                         0.25 * (i + 1));
+                                   }
+                                 }});
   return sum;
 }
 
@@ -94,17 +93,17 @@ Vec3 AreaVector(const Curve& curve, const Vec3& origin) {
 // Points that lie in a plane exactly if the curve does.
 std::vector<Vec3> SpanningPoints(const Curve& curve) {
   std::vector<Vec3> points;
-  ForEachPiece(curve,
-               Overloaded{[&](const Line& l, double, double) {
-                            points.push_back(l.start);
-                            points.push_back(l.end);
-                          },
-                          [&](const Arc& a, double, double) {
-                            for (int i = 0; i <= 4; ++i) points.push_back(JetOf(a, 0.25 * i).point);
-                          },
-                          [&](const BsplineCurve& b, double, double) {
-                            points.insert(points.end(), b.poles.begin(), b.poles.end());
-                          }});
+  ForEachPiece(curve, Overloaded{[&](const Line& l, double, double) {
+                                   points.push_back(l.start);
+                                   points.push_back(l.end);
+                                 },
+                                 [&](const Arc& a, double, double) {
+                                   for (int i = 0; i <= 4; ++i)
+                                     points.push_back(JetOf(a, 0.25 * i).point);
+                                 },
+                                 [&](const BsplineCurve& b, double, double) {
+                                   points.insert(points.end(), b.poles.begin(), b.poles.end());
+                                 }});
   return points;
 }
 

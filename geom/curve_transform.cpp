@@ -58,7 +58,8 @@ BsplineCurve PolygonThrough(const Polyline& p) {
   if (p.closed && p.vertices.size() > 1) curve.poles.push_back(p.vertices.front());
   if (curve.poles.size() == 1) curve.poles.push_back(curve.poles.front());
   curve.knots.push_back(0);
-  for (std::size_t i = 0; i < curve.poles.size(); ++i) curve.knots.push_back(static_cast<double>(i));
+  for (std::size_t i = 0; i < curve.poles.size(); ++i)
+    curve.knots.push_back(static_cast<double>(i));
   curve.knots.push_back(curve.knots.back());
   return curve;
 }

@@ -26,8 +26,12 @@ std::optional<std::vector<BsplineCurve>> Loop(const std::vector<BsplineCurve>& e
   std::iota(order.begin(), order.end(), 0);
   do {
     for (unsigned turned = 0; turned < (1u << edges.size()); turned += 2) {
-      auto start = [&](std::size_t k) { return turned >> k & 1 ? EndOf(edges[k]) : StartOf(edges[k]); };
-      auto end = [&](std::size_t k) { return turned >> k & 1 ? StartOf(edges[k]) : EndOf(edges[k]); };
+      auto start = [&](std::size_t k) {
+        return turned >> k & 1 ? EndOf(edges[k]) : StartOf(edges[k]);
+      };
+      auto end = [&](std::size_t k) {
+        return turned >> k & 1 ? StartOf(edges[k]) : EndOf(edges[k]);
+      };
       bool meets = true;
       for (std::size_t i = 0; i < order.size() && meets; ++i) {
         const std::size_t next = order[(i + 1) % order.size()];
@@ -79,7 +83,8 @@ bool AreTranslates(const BsplineCurve& a, const BsplineCurve& b) {
   }
   for (std::size_t i = 0; i < a.poles.size(); ++i) {
     const Vec3 difference = (a.poles[i] - StartOf(a)) - (b.poles[i] - StartOf(b));
-    const double wa = a.weights.empty() ? 1 : a.weights[i], wb = b.weights.empty() ? 1 : b.weights[i];
+    const double wa = a.weights.empty() ? 1 : a.weights[i],
+                 wb = b.weights.empty() ? 1 : b.weights[i];
     if (!(difference.norm() <= tolerance_m) || std::abs(wa - wb) > 1e-12 * wa) return false;
   }
   return true;

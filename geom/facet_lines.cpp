@@ -20,7 +20,8 @@ double HalfSweepOf(const PatchGrid& grid, int span) {
     for (int k = 0; k < rows[0].cols(); ++k) {
       const double w0 = rows[0](3, k), w1 = rows[1](3, k), w2 = rows[2](3, k);
       if (j == 0 && k == 0) cosine = w1 / w0;
-      if (std::abs(w2 - w0) > kEqualWeights * w0 || std::abs(w1 - cosine * w0) > kEqualWeights * w0) {
+      if (std::abs(w2 - w0) > kEqualWeights * w0 ||
+          std::abs(w1 - cosine * w0) > kEqualWeights * w0) {
         return 0;
       }
     }
@@ -131,7 +132,8 @@ bool ClosesAlongU(const PatchGrid& grid) {
   const Vec3 first = PointOf(grid.at(0, 0), 0, 0);
   for (int j = 0; j < grid.count_v(); ++j) {
     for (const double t : {0.0, 0.29, 0.71, 1.0}) {
-      const Vec3 a = PointOf(grid.at(0, j), 0, t), b = PointOf(grid.at(grid.count_u() - 1, j), 1, t);
+      const Vec3 a = PointOf(grid.at(0, j), 0, t),
+                 b = PointOf(grid.at(grid.count_u() - 1, j), 1, t);
       if (!((a - b).norm() <= kCoincident_m)) return false;
       collapsed = collapsed && (a - first).norm() <= kCoincident_m;
     }
@@ -162,12 +164,15 @@ void AppendArcLines(const SpanGroup& group, const std::vector<double>& half_rad,
 
 }  // namespace
 
-double AngleBetween(const Vec3& a, const Vec3& b) { return std::atan2(a.cross(b).norm(), a.dot(b)); }
+double AngleBetween(const Vec3& a, const Vec3& b) {
+  return std::atan2(a.cross(b).norm(), a.dot(b));
+}
 
 Vec3 LimitNormal(const BezierPatch& patch, double s, double t, const Vec2& towards) {
   constexpr double kSmall = 1e-10;
   const SurfaceJet jet = JetOf(patch, s, t);
-  const double size = jet.du.norm() + jet.dv.norm() + jet.duu.norm() + jet.duv.norm() + jet.dvv.norm();
+  const double size =
+      jet.du.norm() + jet.dv.norm() + jet.duu.norm() + jet.duv.norm() + jet.dvv.norm();
   const Vec3 normal = jet.du.cross(jet.dv);
   if (normal.norm() > kSmall * size * size) return normal.normalized();
   const Vec3 change = (towards.x() * jet.duu + towards.y() * jet.duv).cross(jet.dv) +

@@ -20,9 +20,9 @@ struct SpanGroup {
   enum class Kind { kStraight, kArc, kGeneral };
   Kind kind;
   int first, count;
-  double sweep_rad = 0;   // of an arc
-  double reach_m = 0;     // largest radius of an arc; largest second derivative of a general span
-  double turning_rad = 0; // of a general span
+  double sweep_rad = 0;    // of an arc
+  double reach_m = 0;      // largest radius of an arc; largest second derivative of a general span
+  double turning_rad = 0;  // of a general span
 };
 
 // One of the two parameter directions of a grid.

@@ -54,13 +54,13 @@ struct Tolerance {
 inline constexpr double kCoincident_m = 1e-9;
 
 enum class ErrorCode {
-  kDegenerate,     // zero length, collinear points of an arc, zero normal …
-  kNotClosed,      // something that must be closed is open
-  kNotPlanar,      // something that must lie in a plane does not
-  kDoNotMeet,      // ends of parts that are to be joined lie apart
-  kNotAGraph,      // a surface with more than one height over a point of its plan
-  kOutOfRange,     // a number outside the range the function states
-  kTooLarge,       // a result above the stated cap (facets, poles)
+  kDegenerate,  // zero length, collinear points of an arc, zero normal …
+  kNotClosed,   // something that must be closed is open
+  kNotPlanar,   // something that must lie in a plane does not
+  kDoNotMeet,   // ends of parts that are to be joined lie apart
+  kNotAGraph,   // a surface with more than one height over a point of its plan
+  kOutOfRange,  // a number outside the range the function states
+  kTooLarge,    // a result above the stated cap (facets, poles)
 };
 
 // `detail` states the situation in words that fit after a colon; `part` is the index of the

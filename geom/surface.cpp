@@ -16,8 +16,8 @@ tl::expected<void, Error> Refuse(const char* detail) {
 bool InRange(const Vec3& p) { return (p.array().abs() <= kLargestCoordinate_m).all(); }
 
 tl::expected<void, Error> CheckOne(const BsplineSurface& s) {
-  const bool degrees = s.degree_u >= 1 && s.degree_u <= kMaxDegree && s.degree_v >= 1 &&
-                       s.degree_v <= kMaxDegree;
+  const bool degrees =
+      s.degree_u >= 1 && s.degree_u <= kMaxDegree && s.degree_v >= 1 && s.degree_v <= kMaxDegree;
   if (!degrees || s.count_u <= s.degree_u || s.count_v <= s.degree_v) {
     return Refuse("there are too few poles for the degree");
   }
@@ -44,7 +44,8 @@ tl::expected<void, Error> CheckOne(const CoonsPatch& c) {
   for (const BsplineCurve* edge : {&c.south, &c.north, &c.west, &c.east}) {
     if (auto checked = Check(Curve(*edge)); !checked) return checked;
   }
-  if (c.south.degree + c.north.degree >= kMaxDegree || c.west.degree + c.east.degree >= kMaxDegree) {
+  if (c.south.degree + c.north.degree >= kMaxDegree ||
+      c.west.degree + c.east.degree >= kMaxDegree) {
     return Refuse("the degrees of opposite edges are too high");
   }
   auto apart = [](const Vec3& a, const Vec3& b) { return !((a - b).norm() <= 1e-6); };

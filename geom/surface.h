@@ -31,15 +31,16 @@ using Surface = std::variant<BsplineSurface, CoonsPatch>;
 // The patch through 3 or 4 boundary curves given in any order and direction. Where opposite
 // edges are translates of one another the patch is a surface of translation and is returned as
 // the exact B-spline P_ij = P_i + Q_j − P_0, w_ij = w_i·w_j; otherwise as a CoonsPatch. Of three
-// edges the shared end of the first two becomes a degenerate fourth. kDoNotMeet with the index of a curve whose end is free.
+// edges the shared end of the first two becomes a degenerate fourth. kDoNotMeet with the index of a
+// curve whose end is free.
 Result<Surface> EdgeSurface(const std::vector<Curve>& boundary, double tolerance_m = 1e-6);
 Result<Surface> Extrusion(const Curve& profile, const Vec3& direction);
 Result<Surface> Revolution(const Curve& profile, const Vec3& axis_point, const Vec3& axis_direction,
                            double angle_rad);
 Result<Surface> Ruled(const Curve& from, const Curve& to);
 
-// Whether the surface is sound: numbers finite, counts, degrees and knots fitting, weights positive,
-// a patch's corners meeting. Of a surface that is not, measures are zero and boxes empty.
+// Whether the surface is sound: numbers finite, counts, degrees and knots fitting, weights
+// positive, a patch's corners meeting. Of a surface that is not, measures are zero and boxes empty.
 tl::expected<void, Error> Check(const Surface&);
 Vec3 PointAt(const Surface&, double u, double v);
 Vec3 NormalAt(const Surface&, double u, double v);  // unit; zero where the surface is singular
@@ -54,9 +55,9 @@ Surface Transformed(const Surface&, const Affine& target_from_source);
 bool HasExactBspline(const Surface&);
 
 // Facets for output. Vertices on a crease are doubled, so that normals stay sharp; positions of
-// doubled vertices are equal to the bit, so there are no cracks. `edges` are the borders and creases,
-// as pairs of positions' indices, for wireframe and hidden-line pictures. kTooLarge above ten million
-// triangles.
+// doubled vertices are equal to the bit, so there are no cracks. `edges` are the borders and
+// creases, as pairs of positions' indices, for wireframe and hidden-line pictures. kTooLarge above
+// ten million triangles.
 struct Mesh {
   std::vector<Vec3> positions;
   std::vector<Vec3> normals;

@@ -47,8 +47,8 @@ double HighestCorner(const BezierPatch& patch, int axis, double sign) {
   const auto last = patch.rows[0].cols() - 1;
   double highest = -std::numeric_limits<double>::infinity();
   for (const BezierPoles* row : {&patch.rows.front(), &patch.rows.back()}) {
-    highest = std::max({highest, sign * Projected(row->col(0))[axis],
-                        sign * Projected(row->col(last))[axis]});
+    highest = std::max(
+        {highest, sign * Projected(row->col(0))[axis], sign * Projected(row->col(last))[axis]});
   }
   return highest;
 }
@@ -181,7 +181,12 @@ Nearest NearestPoint(const Surface& surface, const Vec3& p) {
     if (part.depth >= kDeepest) continue;
     const bool along_u = WiderAlongU(part.patch, Vec3::Ones());
     for (const bool upper : {false, true}) {
-      Part half{0, part.u0, part.u1, part.v0, part.v1, part.depth + 1,
+      Part half{0,
+                part.u0,
+                part.u1,
+                part.v0,
+                part.v1,
+                part.depth + 1,
                 SplitOff(part.patch, along_u, upper)};
       const double u = 0.5 * (part.u0 + part.u1), v = 0.5 * (part.v0 + part.v1);
       (along_u ? (upper ? half.u0 : half.u1) : (upper ? half.v0 : half.v1)) = along_u ? u : v;

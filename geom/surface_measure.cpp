@@ -13,10 +13,9 @@ constexpr long kMaxCells = 40'000;
 // An area element more upright than this is a wall.
 constexpr double kUpright = 1e-9;
 // Interior parameters at which the plan is examined: Gauss nodes, which no symmetry favours.
-constexpr std::array<double, 8> kProbes = {0.0198550717512319, 0.1016667612931866,
-                                           0.2372337950418355, 0.4082826787521751,
-                                           0.5917173212478249, 0.7627662049581645,
-                                           0.8983332387068134, 0.9801449282487681};
+constexpr std::array<double, 8> kProbes = {
+    0.0198550717512319, 0.1016667612931866, 0.2372337950418355, 0.4082826787521751,
+    0.5917173212478249, 0.7627662049581645, 0.8983332387068134, 0.9801449282487681};
 
 // ∫∫ f(patch, s, t) over all patches; singularities of the integrand, which lie on corners and
 // edges of patches, are closed in on by quartering.
@@ -25,8 +24,7 @@ double IntegrateOver(const PatchGrid& grid, const F& f) {
   std::vector<double> rough;
   double size = 0;
   for (const BezierPatch& patch : grid.patches) {
-    rough.push_back(
-        Gauss8Squared([&](double s, double t) { return f(patch, s, t); }, kUnitCell));
+    rough.push_back(Gauss8Squared([&](double s, double t) { return f(patch, s, t); }, kUnitCell));
     size += std::abs(rough.back());
   }
   double sum = 0;
@@ -83,7 +81,8 @@ std::vector<Vec2> PlanBorder(const PatchGrid& grid) {
   for (int k = 0; k < nu * kParts; ++k) {
     add(nu - 1 - k / kParts, nv - 1, 1 - k % kParts / double{kParts}, 1);
   }
-  for (int k = 0; k < nv * kParts; ++k) add(0, nv - 1 - k / kParts, 0, 1 - k % kParts / double{kParts});
+  for (int k = 0; k < nv * kParts; ++k)
+    add(0, nv - 1 - k / kParts, 0, 1 - k % kParts / double{kParts});
   return border;
 }
 
@@ -141,9 +140,9 @@ Result<double> VolumeUnder(const Surface& surface, double z) {
   const auto orientation = PlanOrientation(grid);
   if (!orientation) return tl::unexpected(orientation.error());
   return *orientation * IntegrateOver(grid, [&](const BezierPatch& patch, double s, double t) {
-           const SurfaceJet jet = JetOf(patch, s, t);
-           return (jet.point.z() - z) * jet.du.cross(jet.dv).z();
-         });
+    const SurfaceJet jet = JetOf(patch, s, t);
+    return (jet.point.z() - z) * jet.du.cross(jet.dv).z();
+  });
 }
 
 bool IsClosed(const Surface& surface) {
@@ -153,7 +152,8 @@ bool IsClosed(const Surface& surface) {
   bool u_meets = true, u0_point = true, u1_point = true;
   bool v_meets = true, v0_point = true, v1_point = true;
   const int nu = grid.count_u(), nv = grid.count_v();
-  const Vec3 corner0 = PointOf(grid.at(0, 0), 0, 0), corner1 = PointOf(grid.at(nu - 1, nv - 1), 1, 1);
+  const Vec3 corner0 = PointOf(grid.at(0, 0), 0, 0),
+             corner1 = PointOf(grid.at(nu - 1, nv - 1), 1, 1);
   for (int k = 0; k < nv * kSamples; ++k) {
     const double t = k % kSamples / (kSamples - 1.0);
     const Vec3 a = PointOf(grid.at(0, k / kSamples), 0, t);

@@ -69,8 +69,8 @@ SurfaceJet JetOf(const BezierPatch& patch, double s, double t) {
   jet.dv = (hv.point.head<3>() - hv.point.w() * jet.point) / w;
   jet.duu = (h.d2.head<3>() - h.d2.w() * jet.point - 2 * h.d1.w() * jet.du) / w;
   jet.dvv = (hvv.head<3>() - hvv.w() * jet.point - 2 * hv.point.w() * jet.dv) / w;
-  jet.duv = (hv.d1.head<3>() - hv.d1.w() * jet.point - h.d1.w() * jet.dv -
-             hv.point.w() * jet.du) / w;
+  jet.duv =
+      (hv.d1.head<3>() - hv.d1.w() * jet.point - h.d1.w() * jet.dv - hv.point.w() * jet.du) / w;
   return jet;
 }
 
@@ -159,8 +159,8 @@ std::vector<BezierSpan> SpansBetween(const BsplineCurve& c, const std::vector<do
       if (std::abs(t - c.knots[k]) <= 1e-11 * range) return c.knots[k];
       return std::abs(t - c.knots[k + 1]) <= 1e-11 * range ? c.knots[k + 1] : t;
     };
-    spans.push_back({breaks[i], breaks[i + 1],
-                     BezierOver(c.knots, k, ControlOf(c, k), snap(a), snap(b))});
+    spans.push_back(
+        {breaks[i], breaks[i + 1], BezierOver(c.knots, k, ControlOf(c, k), snap(a), snap(b))});
   }
   return spans;
 }

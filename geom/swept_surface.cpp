@@ -82,8 +82,8 @@ Result<Surface> Ruled(const Curve& from, const Curve& to) {
   return Surface(Rulings(Refined(a, degree, breaks), Refined(b, degree, breaks)));
 }
 
-Result<Surface> Revolution(const Curve& profile, const Vec3& axis_point,
-                           const Vec3& axis_direction, double angle_rad) {
+Result<Surface> Revolution(const Curve& profile, const Vec3& axis_point, const Vec3& axis_direction,
+                           double angle_rad) {
   if (auto checked = Check(profile); !checked) return tl::unexpected(checked.error());
   const double sweep_rad = std::abs(angle_rad);
   if (!(sweep_rad > 0 && sweep_rad <= 2 * kPi * (1 + 1e-12))) {
@@ -105,8 +105,7 @@ Result<Surface> Revolution(const Curve& profile, const Vec3& axis_point,
   const double on_axis_m = 1e-14 * reach;
   if (!(widest > on_axis_m)) return Degenerate("the profile lies on the axis");
   Frame unit;
-  const BsplineCurve turn =
-      JoinSpans(BezierSpansOf(Arc{unit, 1, std::min(sweep_rad, 2 * kPi)}));
+  const BsplineCurve turn = JoinSpans(BezierSpansOf(Arc{unit, 1, std::min(sweep_rad, 2 * kPi)}));
   BsplineSurface surface;
   surface.degree_u = turn.degree;
   surface.degree_v = meridian.degree;

@@ -132,7 +132,8 @@ Result<std::vector<Vec3>> Tessellate(const Curve& curve, const Tolerance& tolera
     return tl::unexpected(
         Error{ErrorCode::kTooLarge, "the tolerance asks for more than ten million points"});
   }
-  const bool repeats = points.size() > 2 && (points.front() - points.back()).norm() <= kCoincident_m;
+  const bool repeats =
+      points.size() > 2 && (points.front() - points.back()).norm() <= kCoincident_m;
   const auto* chain = std::get_if<Chain>(&curve);
   if (points.size() > 2 && (repeats || (chain && chain->closed))) points.pop_back();
   return points;

@@ -100,9 +100,9 @@ class SurfaceFacets {
         const auto [j, t] = Halfway(grid_.breaks_v, v_.lines[b], v_.lines[b + 1]);
         deviation_m = std::max(deviation_m, DistanceToCell(PointOf(grid_.at(i, j), s, t), a, b));
         const FacetLine &lu = u_.lines[a], &lv = v_.lines[b];
-        deviation_m = std::max(
-            {deviation_m, DistanceToCell(PointOf(grid_.at(lu.span, j), lu.local, t), a, b),
-             DistanceToCell(PointOf(grid_.at(i, lv.span), s, lv.local), a, b)});
+        deviation_m =
+            std::max({deviation_m, DistanceToCell(PointOf(grid_.at(lu.span, j), lu.local, t), a, b),
+                      DistanceToCell(PointOf(grid_.at(i, lv.span), s, lv.local), a, b)});
       }
     }
     return deviation_m;
@@ -235,8 +235,13 @@ class SurfaceFacets {
 
   void AddCell(int a, int b) {
     const int u0 = u_.after[a], u1 = u_.before[a + 1], v0 = v_.after[b], v1 = v_.before[b + 1];
-    const std::uint32_t p = Vertex(u0, v0, a, b), q = Vertex(u1, v0, a, b);
-    const std::uint32_t r = Vertex(u1, v1, a, b), s = Vertex(u0, v1, a, b);
+    // Corners on a collapsed line are one vertex.
+    const std::uint32_t p = Vertex(u0, v0, a, b);
+    const std::uint32_t q = collapsed_v_[b] ? p : Vertex(u1, v0, a, b);
+    const std::uint32_t s = collapsed_u_[a] ? p : Vertex(u0, v1, a, b);
+    const std::uint32_t r = collapsed_v_[b + 1]   ? s
+                            : collapsed_u_[a + 1] ? q
+                                                  : Vertex(u1, v1, a, b);
     if (SecondDiagonal(a, b)) {
       AddTriangle(p, q, s);
       AddTriangle(q, r, s);
@@ -303,9 +308,8 @@ double Total(const std::vector<double>& counts) {
 }
 
 bool IsCurved(const Direction& direction) {
-  return std::any_of(direction.groups.begin(), direction.groups.end(), [](const SpanGroup& g) {
-    return g.kind != SpanGroup::Kind::kStraight;
-  });
+  return std::any_of(direction.groups.begin(), direction.groups.end(),
+                     [](const SpanGroup& g) { return g.kind != SpanGroup::Kind::kStraight; });
 }
 
 // How far a straight span's direction turns from one side of its patch to the other: what a
@@ -335,7 +339,8 @@ Result<Mesh> Tessellate(const Surface& surface, const Tolerance& tolerance) {
   // Deviations along u and v add up, so each has half where both directions are curved.
   if (IsCurved(u) && IsCurved(v)) share.chord_m *= 0.5;
   double factor = 1;
-  if (by_turn && !IsCurved(u) && !IsCurved(v)) factor = TurningFacets(LargestTwist(grid), tolerance);
+  if (by_turn && !IsCurved(u) && !IsCurved(v))
+    factor = TurningFacets(LargestTwist(grid), tolerance);
   for (int attempt = 0;; ++attempt) {
     const std::vector<double> counts_u = FacetCounts(u, share, factor);
     const std::vector<double> counts_v = FacetCounts(v, share, factor);
@@ -351,7 +356,7 @@ Result<Mesh> Tessellate(const Surface& surface, const Tolerance& tolerance) {
           Error{ErrorCode::kTooLarge, "no number of facets comes within the tolerance"});
     }
     // The deviation falls with the square of the count.
-    factor *= std::clamp(1.05 * std::sqrt(deviation_m / tolerance.chord_m), 1.2, 1000.0);
+    factor *= std::clamp(1.05 * std::sqrt(deviation_m / tolerance.chord_m), 1.2, 1e9);
   }
 }
 

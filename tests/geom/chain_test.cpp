@@ -12,8 +12,8 @@ TEST(Chain, Fig6OutlineHasItsLength) {
 }
 
 TEST(Chain, PartsAreTurnedRoundWhereNeeded) {
-  const Chain chain = *JoinChain({Line{{0, 0, 0}, {1, 0, 0}}, Line{{2, 0, 0}, {1, 0, 0}},
-                                  Line{{2, 0, 0}, {2, 3, 0}}});
+  const Chain chain = *JoinChain(
+      {Line{{0, 0, 0}, {1, 0, 0}}, Line{{2, 0, 0}, {1, 0, 0}}, Line{{2, 0, 0}, {2, 3, 0}}});
   EXPECT_EQ(PointAt(chain, 0), Vec3(0, 0, 0));
   EXPECT_EQ(PointAt(chain, 0.5), Vec3(1.5, 0, 0));
   EXPECT_EQ(PointAt(chain, 1), Vec3(2, 3, 0));
@@ -28,8 +28,8 @@ TEST(Chain, FirstPartIsTurnedOnlyIfItMustBe) {
 }
 
 TEST(Chain, PartsThatLieApartAreNamed) {
-  const auto apart = JoinChain({Line{{0, 0, 0}, {1, 0, 0}}, Line{{1, 0, 0}, {2, 0, 0}},
-                                Line{{3, 0, 0}, {4, 0, 0}}});
+  const auto apart = JoinChain(
+      {Line{{0, 0, 0}, {1, 0, 0}}, Line{{1, 0, 0}, {2, 0, 0}}, Line{{3, 0, 0}, {4, 0, 0}}});
   ASSERT_FALSE(apart);
   EXPECT_EQ(apart.error().code, ErrorCode::kDoNotMeet);
   EXPECT_EQ(apart.error().part, 2);

@@ -152,7 +152,8 @@ RC_GTEST_PROP(AnyCurve, FractionsOfTheLengthAreReachedInOrder, ()) {
   constexpr int kSteps = 400;
   for (int i = 0; i < kSteps; ++i) {
     const double step = (PointAtFraction(curve, (i + 1.0) / kSteps) -
-                         PointAtFraction(curve, static_cast<double>(i) / kSteps)).norm();
+                         PointAtFraction(curve, static_cast<double>(i) / kSteps))
+                            .norm();
     RC_ASSERT(step <= length / kSteps * (1 + 1e-9) + 1e-12);
     walked += step;
   }

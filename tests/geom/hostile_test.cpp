@@ -18,17 +18,30 @@ std::vector<Curve> HostileCurves() {
     change(c);
     return Curve(c);
   };
-  return {Line{{kNan, 0, 0}, {1, 0, 0}}, Line{{0, 0, 0}, {kInf, 0, 0}}, Line{{1e300, 0, 0}, {-1e300, 0, 0}},
-          Arc{{}, kNan, 1}, Arc{{}, 1, kInf}, Arc{{}, -1, 1}, Circle{{Vec3(0, 0, 0), Vec3(0, 0, 0)}, 1},
-          Polyline{}, Polyline{{{kNan, kNan, kNan}}, true}, BsplineCurve{}, Chain{}, Chain{{Polyline{}}, true},
+  return {Line{{kNan, 0, 0}, {1, 0, 0}},
+          Line{{0, 0, 0}, {kInf, 0, 0}},
+          Line{{1e300, 0, 0}, {-1e300, 0, 0}},
+          Arc{{}, kNan, 1},
+          Arc{{}, 1, kInf},
+          Arc{{}, -1, 1},
+          Circle{{Vec3(0, 0, 0), Vec3(0, 0, 0)}, 1},
+          Polyline{},
+          Polyline{{{kNan, kNan, kNan}}, true},
+          BsplineCurve{},
+          Chain{},
+          Chain{{Polyline{}}, true},
           spline([](BsplineCurve& c) { c.degree = 0; }),
           spline([](BsplineCurve& c) { c.degree = 1'000'000'000; }),
           spline([](BsplineCurve& c) { c.knots.pop_back(); }),
           spline([](BsplineCurve& c) { c.knots = {0, 0, 0, 0, 0, 0}; }),
           spline([](BsplineCurve& c) { c.knots = {1, 1, 1, 0, 0, 0}; }),
           spline([](BsplineCurve& c) { c.knots[3] = kNan; }),
-          spline([](BsplineCurve& c) { c.weights = {1, 0, 1}; }),
-          spline([](BsplineCurve& c) { c.weights = {1, -1, 1}; }),
+          spline([](BsplineCurve& c) {
+            c.weights = {1, 0, 1};
+          }),
+          spline([](BsplineCurve& c) {
+            c.weights = {1, -1, 1};
+          }),
           spline([](BsplineCurve& c) { c.weights = {1}; }),
           spline([](BsplineCurve& c) { c.poles[1].x() = kInf; })};
 }
@@ -58,10 +71,17 @@ TEST(Hostile, UnsoundCurvesAreToldAndMeasureNothing) {
 
 std::vector<Curve> DegenerateCurves() {
   const Vec3 p(1, 2, 3);
-  return {Line{p, p}, Arc{{}, 0, 1}, Arc{{}, 1, 0}, Circle{{}, 0}, Polyline{{p}, false},
-          Polyline{{p, p, p}, true}, BsplineCurve{2, {0, 0, 0, 1, 1, 1}, {p, p, p}, {}},
-          Chain{{Line{p, p}, Line{p, p}}, true}, Line{{1e-300, 0, 0}, {0, 0, 0}},
-          Line{{1e29, 0, 0}, {-1e29, 0, 0}}, Circle{{}, 1e29}};
+  return {Line{p, p},
+          Arc{{}, 0, 1},
+          Arc{{}, 1, 0},
+          Circle{{}, 0},
+          Polyline{{p}, false},
+          Polyline{{p, p, p}, true},
+          BsplineCurve{2, {0, 0, 0, 1, 1, 1}, {p, p, p}, {}},
+          Chain{{Line{p, p}, Line{p, p}}, true},
+          Line{{1e-300, 0, 0}, {0, 0, 0}},
+          Line{{1e29, 0, 0}, {-1e29, 0, 0}},
+          Circle{{}, 1e29}};
 }
 
 TEST(Hostile, CurvesWithoutExtentAndHugeOnesHaveFiniteMeasures) {
@@ -78,8 +98,9 @@ TEST(Hostile, CurvesWithoutExtentAndHugeOnesHaveFiniteMeasures) {
     EnclosedArea(curve);
     Centroid(curve);
     PlaneOf(curve);
-    for (const auto& surface : {Extrusion(curve, {0, 0, 1}), Ruled(curve, Line{{0, 0, 0}, {1, 0, 0}}),
-                                Revolution(curve, {5, 0, 0}, {0, 1, 0}, 1)}) {
+    for (const auto& surface :
+         {Extrusion(curve, {0, 0, 1}), Ruled(curve, Line{{0, 0, 0}, {1, 0, 0}}),
+          Revolution(curve, {5, 0, 0}, {0, 1, 0}, 1)}) {
       if (!surface) continue;
       EXPECT_TRUE(std::isfinite(Area(*surface)));
       Tessellate(*surface, {});

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Curves and transforms for the tests of geom, made from whole numbers so that failing cases read well.
+// Curves and transforms for the tests of geom, made from whole numbers so that failing cases read
+// well.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -12,7 +13,9 @@
 
 namespace tranos::geom {
 
-inline double Hundredth(int limit) { return *rc::gen::inRange(-limit * 100, limit * 100 + 1) / 100.0; }
+inline double Hundredth(int limit) {
+  return *rc::gen::inRange(-limit * 100, limit * 100 + 1) / 100.0;
+}
 inline double Within(double low, double high) {
   return low + (high - low) * (*rc::gen::inRange(0, 10001) / 10000.0);
 }
@@ -65,11 +68,16 @@ inline Polyline DrawPolyline() {
 // A curve of any kind.
 inline Curve DrawCurve() {
   switch (*rc::gen::inRange(0, 6)) {
-    case 0: return Line{DrawPoint(), DrawPoint()};
-    case 1: return DrawArc();
-    case 2: return Circle{DrawFrame(), Within(0.1, 15)};
-    case 3: return DrawPolyline();
-    case 4: return DrawBspline();
+    case 0:
+      return Line{DrawPoint(), DrawPoint()};
+    case 1:
+      return DrawArc();
+    case 2:
+      return Circle{DrawFrame(), Within(0.1, 15)};
+    case 3:
+      return DrawPolyline();
+    case 4:
+      return DrawBspline();
     default: {
       const Arc arc = DrawArc();
       const Vec3 end = PointAt(arc, 1);

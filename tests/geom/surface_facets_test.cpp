@@ -25,7 +25,8 @@ Surface Saddle() { return *Ruled(Line{{0, 0, 0}, {10, 0, 0}}, Line{{0, 10, 0}, {
 Surface Conoid() { return *Ruled(Arc{{}, 3, kPi}, Line{{3, 0, 5}, {-3, 0, 5}}); }
 Surface Patch() {
   const Vec3 a(0, 0, 0), b(10, 0, 1), c(11, 9, -1), d(-1, 8, 2);
-  const BsplineCurve wave{3, {0, 0, 0, 0, 1, 1, 1, 1}, {c, {7, 12, 3}, {3, 6, -2}, d}, {1, 2, 0.5, 1}};
+  const BsplineCurve wave{
+      3, {0, 0, 0, 0, 1, 1, 1, 1}, {c, {7, 12, 3}, {3, 6, -2}, d}, {1, 2, 0.5, 1}};
   return *EdgeSurface({*ArcThrough(a, {5, -1, 3}, b), Line{b, c}, wave, Line{d, a}});
 }
 Surface StretchedTorus() {
@@ -66,8 +67,9 @@ double DistanceToTriangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec
 double DistanceToMesh(const Vec3& p, const Mesh& mesh) {
   double distance_m = 1e300;
   for (const auto& t : mesh.triangles) {
-    distance_m = std::min(distance_m, DistanceToTriangle(p, mesh.positions[t[0]],
-                                                         mesh.positions[t[1]], mesh.positions[t[2]]));
+    distance_m = std::min(
+        distance_m,
+        DistanceToTriangle(p, mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]));
   }
   return distance_m;
 }
@@ -140,7 +142,10 @@ INSTANTIATE_TEST_SUITE_P(
                       Named{"Saddle", Saddle}, Named{"Conoid", Conoid}, Named{"Patch", Patch},
                       Named{"StretchedTorus", StretchedTorus},
                       Named{"Dome", [] { return *EdgeSurface(Fig6Edges()); }},
-                      Named{"Cylinder", [] { return *Extrusion(Circle{{}, 2}, {1, 0, 4}); }},
+                      Named{"Cylinder",
+                            [] {
+                              return *Extrusion(Circle{{}, 2}, {1, 0, 4});
+                            }},
                       Named{"Triangle",
                             [] {
                               return *EdgeSurface({*ArcThrough({4, 0, 0}, {2, 1, 2}, {0, 0, 0}),

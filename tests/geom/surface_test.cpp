@@ -73,9 +73,9 @@ TEST(Fig6, TheOrderAndDirectionsOfTheEdgesDoNotMatter) {
 // A skew quadrilateral ring with sides of several kinds.
 std::vector<Curve> Ring() {
   const Vec3 a(0, 0, 0), b(10, 0, 1), c(11, 9, -1), d(-1, 8, 2);
-  const BsplineCurve wave{3, {0, 0, 0, 0, 1, 1, 1, 1}, {c, {7, 12, 3}, {3, 6, -2}, d}, {1, 2, 0.5, 1}};
-  return {*ArcThrough(a, {5, -1, 3}, b), Line{b, c}, wave,
-          Polyline{{d, {-2, 4, 1}, a}, false}};
+  const BsplineCurve wave{
+      3, {0, 0, 0, 0, 1, 1, 1, 1}, {c, {7, 12, 3}, {3, 6, -2}, d}, {1, 2, 0.5, 1}};
+  return {*ArcThrough(a, {5, -1, 3}, b), Line{b, c}, wave, Polyline{{d, {-2, 4, 1}, a}, false}};
 }
 
 TEST(Coons, PassesThroughItsFourEdges) {
@@ -130,7 +130,8 @@ TEST(Area, RevolvedSolidsHaveTheirClosedForms) {
 
 TEST(Area, SaddleAgreesWithItsIntegral) {
   // z = x·y over the unit square: ∫∫ √(1 + x² + y²) in closed form.
-  const double exact = (std::sqrt(3) + 4 * std::log((1 + std::sqrt(3)) / std::sqrt(2)) - kPi / 6) / 3;
+  const double exact =
+      (std::sqrt(3) + 4 * std::log((1 + std::sqrt(3)) / std::sqrt(2)) - kPi / 6) / 3;
   const Surface saddle = *Ruled(Line{{0, 0, 0}, {1, 0, 0}}, Line{{0, 1, 0}, {1, 1, 1}});
   ExpectRelative(Area(saddle), exact, 1e-11);
   ExpectRelative(*VolumeUnder(saddle, 0), 0.25, 1e-12);
