@@ -230,7 +230,7 @@ Factors FactorsOf(const Eigen::Matrix3d& linear) {
     factors.rotation = linear * factors.scale.cwiseInverse().asDiagonal();
     factors.before.setIdentity();
   } else {
-    const Eigen::JacobiSVD<Eigen::Matrix3d> svd(linear, Eigen::ComputeFullU | Eigen::ComputeFullV);
+    const Eigen::JacobiSVD<Eigen::MatrixXd> svd(linear, Eigen::ComputeFullU | Eigen::ComputeFullV);
     factors.rotation = svd.matrixU();
     factors.scale = svd.singularValues();
     factors.before = svd.matrixV().transpose();

@@ -54,7 +54,7 @@ TEST(Picture, HiddenLineIsLeftOutAndWireframeShowsIt) {
                                                    LineOf({0, 5, 2}, {8, 5, 2})};
   const auto dark_in_column = [&](const Picture& picture, int x) {
     int count = 0;
-    for (int y = 100; y < 250; ++y) count += At(picture, x, y) < 100;
+    for (int y = 100; y < 250; ++y) count += At(picture, x, y) < 200;
     return count;
   };
   const Picture wire = FrontOf(elements, RenderMode::kWireframe);
