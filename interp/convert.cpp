@@ -156,7 +156,8 @@ Value ToSize(const Target& target, const Value& value) {
   if (!value.is_list() || value.list().size() != 2) target.Fail(value);
   std::vector<Value> sides;
   for (const Value& item : value.list()) {
-    sides.push_back(ToCount(target, ReadBare(item, model::kPlain, target.unit)));
+    const bool pixels = item.is_number() && item.dimension() == model::kPixel;
+    sides.push_back(ToCount(target, pixels ? Value::Number(item.number()) : item));
     if (sides.back().number() < 1 || sides.back().number() > kLargestSize) {
       target.FailWith(Code::kOutOfRange, Shown(item) + " is not from 1 to 16384");
     }

@@ -122,11 +122,14 @@ std::vector<Value> ItemsArgument(const CallContext& context, Arguments arguments
 Value Norm(std::span<const Value> numbers) {
   double largest = 0;
   for (const Value& number : numbers) largest = std::max(largest, std::abs(number.number()));
+  // A power of two scales without rounding, and keeps the squares from overflowing.
+  const double scale = largest > 0 ? std::exp2(std::min(std::ilogb(largest), 1000)) : 1;
   double norm = 0;
-  if (largest > 0) {
-    for (const Value& number : numbers) norm += std::pow(number.number() / largest, 2);
-    norm = largest * std::sqrt(norm);
+  for (const Value& number : numbers) {
+    const double scaled = number.number() / scale;
+    norm += scaled * scaled;
   }
+  norm = scale * std::sqrt(norm);
   std::vector<Term> terms;
   for (const Value& number : numbers) terms.push_back({&number, number.number() / norm});
   return Combine(norm, numbers.empty() ? model::kPlain : numbers[0].dimension(), terms);
