@@ -75,7 +75,7 @@ TEST(Functions, GiveExactlyThis) {
       {"dot", {P(1, 2, 3), P(4, 5, 6)}, M2(32)},
       {"cross", {L({N(1), N(0), N(0)}), L({N(0), N(1), N(0)})}, L({N(0), N(0), N(1)})},
       {"length", {P(3, 4, 0)}, M(5)},
-      {"length", {P(3e200, 4e200, 0)}, M(5e200)},
+      {"length", {P(std::ldexp(3, 600), std::ldexp(4, 600), 0)}, M(std::ldexp(5, 600))},
       {"normalize", {P(0, 0, 3)}, L({N(0), N(0), N(1)})},
       {"normalize", {L({M(0), M(2)})}, L({N(0), N(1)})},
       {"angle", {P(1, 0, 0), P(0, 1, 0)}, Deg(90)},
