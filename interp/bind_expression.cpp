@@ -67,6 +67,12 @@ void Binder::ExpressionInto(std::uint32_t target, NodeId id) {
     Emit({Op::kMove, 0, 0, target, AddConstant(std::move(*constant)), 0}, SpanOf(id));
     return;
   }
+  constexpr int kDeepest = 1000;  // the parser bounds nesting; this bounds chains such as a.b.c.d
+  if (depth_ >= kDeepest) {
+    Error(Code::kTooDeep, SpanOf(id), "the expression is nested too deeply", "", "bind parts of it with `let`");
+    return;
+  }
+  ++depth_;
   const std::uint32_t mark = builder_->next_register;
   const Node& node = tree()[id];
   switch (node.kind) {
@@ -101,6 +107,7 @@ void Binder::ExpressionInto(std::uint32_t target, NodeId id) {
     default: break;  // an error node, reported by the parser
   }
   builder_->next_register = mark;
+  --depth_;
 }
 
 std::optional<Value> Binder::NumberConstant(NodeId id, bool percent_is_share) {
@@ -147,36 +154,61 @@ std::optional<Value> Binder::Constant(NodeId id) {
   }
 }
 
-void Binder::BinaryInto(std::uint32_t target, NodeId id) {
-  const auto op = static_cast<Operator>(tree()[id].detail);
-  if (op == Operator::kAnd || op == Operator::kOr) return LogicInto(target, id);
-  const auto kids = Kids(id);
-  const Operand left = Expression(kids[0]);
-  std::uint8_t flags = 0;
-  if (op == Operator::kPlusMinus && KindOf(kids[1]) == NodeKind::kNumber &&
-      NumberOf(Text(kids[1])).unit == "%") {
-    flags = 1;
+// A long sum leans to the left and is as deep as it is long, so its spine is walked and not descended.
+std::vector<NodeId> Binder::Spine(NodeId id, NodeId* leftmost) const {
+  const auto is_logic = [&](NodeId at) {
+    const auto op = static_cast<Operator>(tree()[at].detail);
+    return op == Operator::kAnd || op == Operator::kOr;
+  };
+  std::vector<NodeId> spine;
+  NodeId at = id;
+  while (KindOf(at) == NodeKind::kBinary && is_logic(at) == is_logic(id) &&
+         (!is_logic(id) || tree()[at].detail == tree()[id].detail)) {
+    spine.push_back(at);
+    at = tree()[at].first_child;
   }
-  const Operand right = Expression(kids[1]);
-  Emit({OpOf(op), flags, scope_->measure, target, left, right}, OperatorSpan(id));
+  *leftmost = at;
+  return {spine.rbegin(), spine.rend()};
+}
+
+void Binder::BinaryInto(std::uint32_t target, NodeId id) {
+  const auto logic = static_cast<Operator>(tree()[id].detail);
+  if (logic == Operator::kAnd || logic == Operator::kOr) return LogicInto(target, id);
+  NodeId leftmost;
+  const std::vector<NodeId> spine = Spine(id, &leftmost);
+  Operand left = Expression(leftmost);
+  for (NodeId at : spine) {
+    const auto op = static_cast<Operator>(tree()[at].detail);
+    const NodeId right_node = tree()[tree()[at].first_child].next;
+    const bool is_share = op == Operator::kPlusMinus && KindOf(right_node) == NodeKind::kNumber &&
+                          NumberOf(Text(right_node)).unit == "%";
+    const Operand right = Expression(right_node);
+    Emit({OpOf(op), static_cast<std::uint8_t>(is_share), scope_->measure, target, left, right}, OperatorSpan(at));
+    left = target;
+  }
 }
 
 void Binder::LogicInto(std::uint32_t target, NodeId id) {
   const bool is_and = static_cast<Operator>(tree()[id].detail) == Operator::kAnd;
-  const auto kids = Kids(id);
-  ExpressionInto(target, kids[0]);
-  Emit({Op::kCheckBoolean, 0, 0, target, target, 0}, SpanOf(kids[0]));
-  std::uint32_t skip;
-  if (is_and) {
-    skip = Emit({Op::kJumpIfFalse, 0, 0, 0, target, 0}, SpanOf(kids[0]));
-  } else {
-    const std::uint32_t on = Emit({Op::kJumpIfFalse, 0, 0, 0, target, 0}, SpanOf(kids[0]));
-    skip = Emit({Op::kJump, 0, 0, 0, 0, 0}, SpanOf(kids[0]));
-    Patch(on, Here());
+  NodeId leftmost;
+  const std::vector<NodeId> spine = Spine(id, &leftmost);
+  std::vector<std::uint32_t> to_end;
+  const auto side = [&](NodeId node) {
+    ExpressionInto(target, node);
+    Emit({Op::kCheckBoolean, 0, 0, target, target, 0}, SpanOf(node));
+  };
+  side(leftmost);
+  for (NodeId at : spine) {
+    const std::uint32_t jump = Emit({Op::kJumpIfFalse, 0, 0, 0, target, 0}, SpanOf(at));
+    if (is_and) {
+      to_end.push_back(jump);
+    } else {
+      to_end.push_back(Emit({Op::kJump, 0, 0, 0, 0, 0}, SpanOf(at)));
+      Patch(jump, Here());
+    }
+    side(tree()[tree()[at].first_child].next);
   }
-  ExpressionInto(target, kids[1]);
-  Emit({Op::kCheckBoolean, 0, 0, target, target, 0}, SpanOf(kids[1]));
-  Patch(skip, Here());
+  for (std::uint32_t jump : to_end) Patch(jump, Here());
 }
 
 void Binder::ConditionalInto(std::uint32_t target, NodeId id) {
@@ -202,7 +234,8 @@ void Binder::ConditionalInto(std::uint32_t target, NodeId id) {
 }
 
 // The dimension an expression will have, where its text tells; otherwise nothing.
-std::optional<Dimension> Binder::StaticDimension(NodeId id) {
+std::optional<Dimension> Binder::StaticDimension(NodeId id, int depth) {
+  if (depth > 32) return std::nullopt;
   const Node& node = tree()[id];
   const auto kids = Kids(id);
   switch (node.kind) {
@@ -213,16 +246,16 @@ std::optional<Dimension> Binder::StaticDimension(NodeId id) {
       const auto index = FindMeasure(literal.unit);
       return index ? std::optional(program_->measures[*index].dimension) : std::nullopt;
     }
-    case NodeKind::kParen: return StaticDimension(kids[0]);
-    case NodeKind::kUnary: return StaticDimension(kids[0]);
-    case NodeKind::kConditional: return StaticDimension(kids[1]);
+    case NodeKind::kParen: return StaticDimension(kids[0], depth + 1);
+    case NodeKind::kUnary: return StaticDimension(kids[0], depth + 1);
+    case NodeKind::kConditional: return StaticDimension(kids[1], depth + 1);
     case NodeKind::kMember: return DimensionOfMember(Text(kids[1]));
     case NodeKind::kName: {
       const Symbol* symbol = Find(Text(id));
       return symbol ? symbol->dimension : std::nullopt;
     }
     case NodeKind::kBinary: {
-      const auto left = StaticDimension(kids[0]), right = StaticDimension(kids[1]);
+      const auto left = StaticDimension(kids[0], depth + 1), right = StaticDimension(kids[1], depth + 1);
       if (!left || !right) return std::nullopt;
       switch (static_cast<Operator>(node.detail)) {
         case Operator::kAdd:

@@ -167,7 +167,12 @@ std::optional<std::uint16_t> Binder::FindMeasure(std::string_view name) const {
   return std::nullopt;
 }
 
-std::string Binder::Lower(NodeId id) const { return LowerCase(program_->sources->Slice(SpanOf(id))); }
+std::string Binder::Text(NodeId id) const {
+  const std::string_view raw = program_->sources->Slice(tree_->SpanOf(id));
+  return KindOf(id) == NodeKind::kName || KindOf(id) == NodeKind::kWord ? NormalWord(raw) : std::string(raw);
+}
+
+std::string Binder::Lower(NodeId id) const { return LowerCase(Text(id)); }
 
 // The operator of a binary expression: what stands between its sides, brackets and comments aside.
 Span Binder::OperatorSpan(NodeId binary) const {

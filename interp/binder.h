@@ -118,7 +118,8 @@ class Binder {
   void ListInto(std::uint32_t target, const std::vector<NodeId>& items, NodeId whole);
   std::optional<model::Value> Constant(NodeId id);
   std::optional<model::Value> NumberConstant(NodeId id, bool percent_is_share = true);
-  std::optional<model::Dimension> StaticDimension(NodeId id);
+  std::optional<model::Dimension> StaticDimension(NodeId id, int depth = 0);
+  std::vector<NodeId> Spine(NodeId id, NodeId* leftmost) const;
   // The values of a key as one operand of the declared type.
   Operand Typed(const std::vector<NodeId>& values, Type type, bool list, std::string_view words,
                 std::string_view name, NodeId whole);
@@ -145,7 +146,7 @@ class Binder {
 
   // Source and diagnostics.
   const SyntaxTree& tree() const { return *tree_; }
-  std::string Text(NodeId id) const { return std::string(program_->sources->Slice(tree_->SpanOf(id))); }
+  std::string Text(NodeId id) const;  // of a word or name in its normal form
   std::string Lower(NodeId id) const;
   Span SpanOf(NodeId id) const { return tree_->SpanOf(id); }
   std::vector<NodeId> Kids(NodeId id) const { return tree_->Children(id); }
@@ -172,6 +173,7 @@ class Binder {
   bool in_used_file_ = false;
   bool at_top_ = true;
   bool in_definition_ = false;
+  int depth_ = 0;  // of the expression being bound
   std::set<std::string> declared_parameters_;
   std::unordered_map<const Command*, std::uint32_t> uses_;
   std::unordered_map<std::uint32_t, std::unordered_map<std::string, std::uint32_t>> name_indices_;

@@ -10,7 +10,7 @@
 namespace tranos::interp {
 
 struct HostError {
-  enum Kind { kMissing, kOutside, kFailed } kind;
+  enum Kind { kMissing, kOutside, kProtected, kFailed } kind;
   std::string detail;  // "no such file", "a symbolic link", …
 };
 

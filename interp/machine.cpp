@@ -47,11 +47,12 @@ StageLinks Machine::LinksFor(bool is_script) {
           &host_,
           is_script ? &outcome_.outputs : nullptr,
           [this](const Placement& placement, const model::State& state) { return Place(placement, state); },
-          &turns_};
+          &turns_,
+          &turn_values_};
 }
 
 Outcome Machine::Run() {
-  Stage stage(LinksFor(true));
+  Stage stage(LinksFor(true), true);
   stage_ = &stage;
   places_[0] = {&stage, 0};
   Registers registers(program_.units[0].registers);
@@ -273,6 +274,7 @@ bool Machine::BeginCount(const Instruction& i, Value* r, Span span) {
   if (turns < 0) return false;
   budget_.ChargeSteps(1, span);
   turns_.push_back(0);
+  turn_values_.push_back(&r[i.b]);
   r[i.b] = from;
   return true;
 }
@@ -281,6 +283,7 @@ bool Machine::NextCount(const Instruction& i, Value* r, Span span) {
   const double turn = r[i.a + 3].fast_value() + 1;
   if (turn > r[i.a + 1].fast_value()) {
     turns_.pop_back();
+    turn_values_.pop_back();
     return false;
   }
   budget_.ChargeSteps(1, span);
@@ -308,6 +311,7 @@ bool Machine::BeginEach(const Instruction& i, Value* r, Span span) {
   }
   if (list.list().empty()) return false;
   turns_.push_back(0);
+  turn_values_.push_back(&r[i.b]);
   r[i.a + 1] = Value::Number(-1);
   return NextEach(i, r, span);
 }
@@ -317,6 +321,7 @@ bool Machine::NextEach(const Instruction& i, Value* r, Span span) {
   const auto& items = r[i.a].list();
   if (index >= static_cast<double>(items.size())) {
     turns_.pop_back();
+    turn_values_.pop_back();
     return false;
   }
   budget_.ChargeSteps(1, span);
@@ -568,33 +573,6 @@ void Machine::NoteAssert(const Instruction& i, const CodeUnit& unit, const Value
 
 Outcome Run(const Program& program, const RunOptions& options, const Host& host) {
   return Machine(program, options, host).Run();
-}
-
-ScriptResult RunScript(std::string path, std::string text, const BindOptions& bind_options,
-                       const RunOptions& run_options, const Host& host) {
-  ScriptResult result;
-  result.sources = std::make_shared<Sources>();
-  result.sources->files.push_back(MakeSource(std::move(path), std::move(text)));
-  const std::size_t bad = FirstInvalidUtf8(result.sources->files[0].text);
-  if (bad != std::string::npos) {
-    const auto at = static_cast<std::uint32_t>(bad);
-    result.diagnostics.Add({Code::kNotUtf8, {0, at, at + 1}, "the file is not UTF-8: its byte " + std::to_string(bad) +
-                            " begins no character", "", "save the file as UTF-8"});
-    return result;
-  }
-  Bound bound;
-  {
-    const SyntaxTree tree = Parse(*result.sources, 0, {run_options.limits.depth}, &result.diagnostics);
-    if (result.diagnostics.has_errors()) return result;
-    bound = Bind(result.sources, tree, bind_options, host);
-  }
-  result.undeclared = std::move(bound.undeclared);
-  for (const Diagnostic& diagnostic : bound.diagnostics.list()) result.diagnostics.Add(diagnostic);
-  if (result.diagnostics.has_errors() || !result.undeclared.empty()) return result;
-  result.outcome = Run(*bound.program, run_options, host);
-  for (const Diagnostic& diagnostic : result.outcome.diagnostics.list()) result.diagnostics.Add(diagnostic);
-  result.ran = true;
-  return result;
 }
 
 }  // namespace tranos::interp

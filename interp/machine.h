@@ -72,6 +72,7 @@ class Machine {
   std::vector<Activation> innermost_;     // by unit
   std::vector<ScopePlace> places_;        // by name scope
   std::vector<std::uint32_t> turns_;
+  std::vector<const model::Value*> turn_values_;  // the variables of the loops that are open
   int call_depth_ = 0;
   int definition_depth_ = 0;
   Stage* stage_ = nullptr;  // of the code that runs

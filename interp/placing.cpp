@@ -114,11 +114,11 @@ model::ElementPtr Machine::Place(const Placement& placement, const model::State&
 }
 
 model::PrototypePtr Machine::Build(const Definition& definition, Registers registers, Span span) {
-  Stage stage(LinksFor(false));
+  Stage stage(LinksFor(false), false);
   std::vector<model::Interface> interfaces;
-  auto prototype = std::make_shared<model::Prototype>();
+  model::Prototype prototype;
   for (std::size_t i = 0; i < definition.parameters.size(); ++i) {
-    prototype->parameters.emplace_back(definition.parameters[i].name, registers[i]);
+    prototype.parameters.emplace_back(definition.parameters[i].name, registers[i]);
   }
   {
     Lend<Stage*> on_stage(&stage_, &stage);
@@ -128,22 +128,17 @@ model::PrototypePtr Machine::Build(const Definition& definition, Registers regis
     Lend<std::vector<std::uint32_t>> turns(&turns_, {});
     Execute(definition.unit, registers.data(), program_.units[definition.unit].body, &stage);
   }
-  prototype->words = definition.words.substr(definition.words.find(' ') + 1);
-  model::Hasher hasher;
-  hasher.Text(prototype->words);
-  Hash128 sum;
+  prototype.words = definition.words.substr(definition.words.find(' ') + 1);
   stage.state().model.ForEach([&](const model::ElementPtr& part) {
-    prototype->parts.push_back(part);
-    sum = sum + part->hash;
+    prototype.parts.push_back(part);
   });
-  if (prototype->parts.empty()) {
+  if (prototype.parts.empty()) {
     Fail(Code::kNothingMade, span, "`" + definition.words + "` makes nothing", "", "",
          {{definition.span, "its body leaves no element in the model"}});
   }
-  prototype->hash = hasher.Hash(sum).Finish();
-  prototype->names = stage.NamesOf(definition.scope);
-  prototype->interfaces = std::move(interfaces);
-  return prototype;
+  prototype.names = stage.NamesOf(definition.scope);
+  prototype.interfaces = std::move(interfaces);
+  return model::MakePrototype(std::move(prototype));
 }
 
 void Machine::NoteInterface(const Instruction& i, const CodeUnit& unit, const Value* r, Span span) {

@@ -47,10 +47,12 @@ struct Step {
   const model::Edit* edit = nullptr;         // null when the key-in fired nothing
   std::vector<model::ElementId> ids;         // made or changed
   const model::State* state = nullptr;       // after it
+  const Sources* sources = nullptr;          // every file read: complete before the first step
   // Where an element comes from, for matching across runs: the statement's span, the turn of each
   // loop around it, the command's words, and what was answered.
-  Span statement;
+  Span statement;  // of a group: where it ends, and `command` is empty
   std::vector<std::uint32_t> turns;
+  std::vector<model::Value> turn_values;  // what each of these loops' variable stands for
   std::string command;
   std::vector<std::pair<std::string, model::Value>> answers;
 };
@@ -86,5 +88,8 @@ struct ScriptResult {
 };
 ScriptResult RunScript(std::string path, std::string text, const BindOptions& bind_options,
                        const RunOptions& run_options, const Host& host);
+
+// The same without running: what can be said of the text alone.
+ScriptResult CheckScript(std::string path, std::string text, const BindOptions& bind_options, const Host& host);
 
 }  // namespace tranos::interp

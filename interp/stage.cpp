@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include <cmath>
+
 #include "interp/functions.h"
 
 namespace tranos::interp {
@@ -40,6 +42,15 @@ void Budget::ChargeBytes(std::uint64_t bytes, Span span) const {
   }
 }
 
+Stage::Stage(StageLinks links, bool owns_settings) : links_(std::move(links)) {
+  if (!owns_settings) return;
+  auto attributes = std::make_shared<model::Attributes>();
+  attributes->own = model::Attributes::kAll;
+  auto settings = std::make_shared<model::Settings>();
+  settings->attributes = std::move(attributes);
+  state_.drawing.settings = std::move(settings);
+}
+
 const model::Names& Stage::NamesOut(std::size_t groups_out) const {
   return groups_out == 0 ? state_.drawing.names : groups_[groups_.size() - groups_out].names;
 }
@@ -68,6 +79,7 @@ void Stage::Start(const Command* row, const Definition* definition, Span span) {
   active_.text.clear();
   active_.picks.clear();
   active_.firings = 0;
+  active_.selected = false;
   active_.has_frame = false;
   active_.measures.clear();
   if (links_.options) Tell(std::string(row->words), span, nullptr, {});
@@ -133,6 +145,16 @@ const Stage::KeyAnswer* Stage::FindKey(std::string_view name) const {
   if (!active_.row) return nullptr;
   for (std::size_t i = 0; i < active_.keys.size(); ++i) {
     if (active_.keys[i].given && active_.row->keys[i].name == name) return &active_.keys[i];
+  }
+  return nullptr;
+}
+
+// `of=` where it gives elements to work on.
+const Stage::KeyAnswer* Stage::FindOf() const {
+  if (!active_.row) return nullptr;
+  for (std::size_t i = 0; i < active_.keys.size(); ++i) {
+    const Key& key = active_.row->keys[i];
+    if (active_.keys[i].given && key.name == "of" && key.type == Type::kElements) return &active_.keys[i];
   }
   return nullptr;
 }
@@ -362,7 +384,12 @@ void Stage::GroupEnd(Span span) {
                marks_.end());
   made_.clear();
   if (group->members.empty()) return;
-  edit.added.push_back(NewElement(state_, model::GroupPtr(std::move(group))));
+  // A group hands none of its own settings on to its members.
+  auto attributes = std::make_shared<model::Attributes>(*state_.drawing.settings->attributes);
+  attributes->own = 0;
+  edit.added.push_back(model::WithAttributes(*NewElement(state_, model::GroupPtr(std::make_shared<model::Group>())),
+                                             std::move(attributes)));
+  edit.added.back() = model::WithGeometry(*edit.added.back(), model::GroupPtr(std::move(group)));
   edit.selection = state_.drawing.selection;
   history_.push_back(std::move(open.before));
   links_.budget->ChargeElements(1, span);

@@ -53,11 +53,13 @@ struct StageLinks {
   std::vector<model::OutputRequest>* outputs;  // null for a definition's body
   std::function<model::ElementPtr(const Placement&, const model::State&)> place;
   const std::vector<std::uint32_t>* turns;
+  const std::vector<const model::Value*>* turn_values;  // the loops' variables
 };
 
 class Stage {
  public:
-  explicit Stage(StageLinks links) : links_(std::move(links)) {}
+  // At the top of a script all settings are an element's own; in a definition's body those that the body sets.
+  Stage(StageLinks links, bool owns_settings);
 
   void Start(const Command* row, const Definition* definition, Span span);
   void Option(const std::string& word, Span span);
@@ -112,6 +114,7 @@ class Stage {
     bool has_text = false;
     std::vector<model::ElementId> picks;
     int firings = 0;
+    bool selected = false;  // a firing has left something chosen: the next works on that
     std::vector<std::pair<std::string, model::Value>> measures = {};  // of `on=`
     bool has_frame = false;
     geom::Frame frame;  // of `on=`
@@ -134,6 +137,7 @@ class Stage {
   bool PromptsAnswered() const;
   bool KeyAnswers(int prompt) const;
   const KeyAnswer* FindKey(std::string_view name) const;
+  const KeyAnswer* FindOf() const;
   std::vector<model::ElementPtr> Chosen(Span span) const;
   std::size_t ChosenCount() const;
   void AddChosen(const model::ElementPtr& element, Span span,
@@ -154,7 +158,7 @@ class Stage {
   Span SpanOf(const Where& where) const;
   Diagnostic MakeDiagnostic(const CommandError& error) const;
   void Undo(Span span);
-  void UndoToMark(Span span);
+  void UndoToMark(const std::string& name, Span span);
   void Redo(Span span);
   void RestoreModel(const model::State& earlier);
 

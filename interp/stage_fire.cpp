@@ -20,7 +20,8 @@ constexpr std::string_view kChooseHelp =
     "choose first: `choose element;xy=…`, `choose all`; or give it: `of=NAME`";
 
 bool TakesChosen(const Command& row) {
-  return std::any_of(row.keys.begin(), row.keys.end(), [](const Key& key) { return key.name == "of"; });
+  return std::any_of(row.keys.begin(), row.keys.end(),
+                     [](const Key& key) { return key.name == "of" && key.type == Type::kElements; });
 }
 
 }  // namespace
@@ -36,7 +37,7 @@ Span Stage::SpanOf(const Where& where) const {
       if (index < active_.point_spans.size()) return active_.point_spans[index];
       break;
     case Where::kChosen:
-      if (const KeyAnswer* key = FindKey("of")) return key->span;
+      if (const KeyAnswer* key = FindOf()) return key->span;
       break;
     case Where::kString:
       if (active_.has_text) return active_.text_span;
@@ -65,8 +66,8 @@ void Stage::AddChosen(const ElementPtr& element, Span span, std::vector<ElementP
 
 std::vector<ElementPtr> Stage::Chosen(Span span) const {
   std::vector<ElementPtr> out;
-  const KeyAnswer* of = FindKey("of");
-  if (of && (active_.firings == 0 || !of->used)) {
+  const KeyAnswer* of = FindOf();
+  if (of && !active_.selected) {
     for (const Value& item : of->value.list()) AddChosen(item.element(), of->span, &out);
     return out;
   }
@@ -80,8 +81,8 @@ std::vector<ElementPtr> Stage::Chosen(Span span) const {
 }
 
 std::size_t Stage::ChosenCount() const {
-  const KeyAnswer* of = FindKey("of");
-  if (of && (active_.firings == 0 || !of->used)) return of->value.list().size();
+  const KeyAnswer* of = FindOf();
+  if (of && !active_.selected) return of->value.list().size();
   const bool picking = active_.row->manner == Manner::kPicks || active_.row->manner == Manner::kEdits;
   std::size_t count = active_.picks.size();
   if (!picking || active_.firings == 0) count += state_.drawing.selection.size();
@@ -186,6 +187,7 @@ void Stage::FirePlacement(Span span) {
 // Carries an edit out, remembers what it made, and tells of it.
 void Stage::Commit(const model::Edit& edit, Span span) {
   if (edit.ChangesModel()) undone_.clear();
+  if (edit.selection) active_.selected = true;
   const bool grows = !edit.added.empty() || !edit.released.empty();
   model::Applied applied = model::Apply(std::move(state_), edit);
   state_ = std::move(applied.state);
@@ -221,12 +223,12 @@ void Stage::EndStatement(Span span) {
   if (!active_.row || !active_.own_statement) {
     // `of=` given later fires at the end of the statement it stands in.
     if (!active_.row) return;
-    const KeyAnswer* of = FindKey("of");
+    const KeyAnswer* of = FindOf();
     if (of && !of->used && (active_.row->manner == Manner::kPicks || active_.row->manner == Manner::kEdits)) Fire(span);
     return;
   }
   active_.own_statement = false;
-  const KeyAnswer* of = FindKey("of");
+  const KeyAnswer* of = FindOf();
   switch (active_.row->manner) {
     case Manner::kImmediate: End(span, false); break;
     case Manner::kPicks:
@@ -236,7 +238,8 @@ void Stage::EndStatement(Span span) {
       if (ChosenCount() > 0 && active_.picks.empty()) Fire(span);
       break;
     case Manner::kTransforms:
-      if (of && !of->used && PromptsAnswered()) Fire(span);
+      // Without questions it has all it needs; with them only if keys answered them all.
+      if (active_.firings == 0 && PromptsAnswered() && (of || active_.row->prompts.empty())) Fire(span);
       break;
     default: break;
   }
@@ -316,12 +319,14 @@ void Stage::End(Span span, bool is_reset) {
 
 void Stage::FireHistory(Span span) {
   const HistoryStep step = active_.row->history;
+  const KeyAnswer* key = FindKey("name");
+  const std::string name = key ? key->value.string() : active_.text;
   if (step == HistoryStep::kMark) {
-    marks_.emplace_back(active_.text, history_.size());
+    marks_.emplace_back(name, history_.size());
   } else if (step == HistoryStep::kRedo) {
     Redo(span);
-  } else if (active_.has_text) {
-    UndoToMark(span);
+  } else if (key || active_.has_text) {
+    UndoToMark(name, span);
   } else {
     Undo(span);
   }
@@ -350,16 +355,16 @@ void Stage::Undo(Span span) {
   made_.clear();
 }
 
-void Stage::UndoToMark(Span span) {
+void Stage::UndoToMark(const std::string& name, Span span) {
   for (std::size_t i = marks_.size(); i-- > 0;) {
-    if (marks_[i].first != active_.text || marks_[i].second < history_base_) continue;
+    if (marks_[i].first != name || marks_[i].second < history_base_) continue;
     const std::size_t target = marks_[i].second;
     marks_.resize(i + 1);
     while (history_.size() > target) Undo(span);
     return;
   }
-  Fail(Code::kUnknownMark, span, "there is no mark \"" + Printable(active_.text) + "\" in this block", "",
-       "mark \"" + Printable(active_.text) + "\" sets one");
+  Fail(Code::kUnknownMark, span, "there is no mark \"" + Printable(name) + "\" in this block", "",
+       "mark \"" + Printable(name) + "\" sets one");
 }
 
 void Stage::Redo(Span span) {
@@ -379,6 +384,9 @@ void Stage::Tell(std::string key_in, Span span, const model::Edit* edit, const s
   step.state = &state_;
   step.statement = active_.span;
   step.turns = *links_.turns;
+  for (const Value* value : *links_.turn_values) step.turn_values.push_back(*value);
+  step.sources = links_.program->sources.get();
+  if (!active_.row) step.statement = span;
   if (active_.row) {
     step.command = active_.row->words;
     if (edit) {

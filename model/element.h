@@ -59,6 +59,7 @@ struct Attributes {
     kLevel = 8,
     kMaterial = 16,
     kEvidence = 32,
+    kAll = 63,
   };
   Colour colour;
   int linestyle = 0;

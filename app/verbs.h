@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The verbs of the program, a function each: options in, exit status out.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "interp/run.h"
+
+namespace tranos::app {
+
+// What a script is run with, whatever verb runs it.
+struct ScriptOptions {
+  std::string script;
+  std::vector<std::pair<std::string, std::string>> parameters;  // -D
+  std::string hypothesis;
+  interp::Limits limits;
+  std::vector<std::string> allow;  // further folders that may be read
+};
+
+struct RunVerbOptions {
+  ScriptOptions script;
+  std::string output = "out";
+  bool json = false;
+  bool no_output = false;
+  std::string journal;
+  int threads = 0;  // 0: as many as there are cores
+};
+int RunVerb(const RunVerbOptions& options);
+
+int CheckVerb(const ScriptOptions& options, bool json);
+
+struct FmtOptions {
+  std::vector<std::string> files;  // none: standard input to standard output
+  bool check = false;              // tell which would change, and change nothing
+};
+int FmtVerb(const FmtOptions& options);
+
+int HelpVerb(const std::vector<std::string>& words);
+int ExplainVerb(const std::string& code);
+int InspectVerb(const ScriptOptions& options);
+
+struct ReplayOptions {
+  std::string journal;
+};
+int ReplayVerb(const ReplayOptions& options);
+
+struct DiffOptions {
+  std::string a, b;  // scripts or journals
+  bool json = false;
+};
+int DiffVerb(const DiffOptions& options);
+
+struct DocsOptions {
+  std::string file = "docs/reference.md";
+  bool check = false;  // only say whether the file is up to date
+};
+int DocsVerb(const DocsOptions& options);
+
+}  // namespace tranos::app
