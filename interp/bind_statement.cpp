@@ -75,15 +75,44 @@ void Binder::BindStatement(NodeId id) {
   builder_->next_register = mark;
 }
 
-void Binder::BindPlainBlock(NodeId block) {
-  Emit({Op::kBlockBegin, 1}, SpanOf(block));
-  {
-    ScopeGuard guard(this);
-    BindStatements(Kids(block));
+// Whether anything in the block touches the drawing: only then is there something to restore at its end.
+bool Binder::Draws(NodeId block) const {
+  std::vector<NodeId> pending{block};
+  while (!pending.empty()) {
+    const NodeId id = pending.back();
+    pending.pop_back();
+    switch (KindOf(id)) {
+      case NodeKind::kCommand:
+      case NodeKind::kKeyIns:
+      case NodeKind::kGroup: return true;
+      case NodeKind::kScript:
+      case NodeKind::kBlock:
+      case NodeKind::kForCount:
+      case NodeKind::kForEach:
+      case NodeKind::kIf:
+      case NodeKind::kHypothesis:
+        for (NodeId kid = tree()[id].first_child; kid != kNoNode; kid = tree()[kid].next) pending.push_back(kid);
+        break;
+      default: break;
+    }
   }
+  return false;
+}
+
+// The statements of a block, settings restored at its end.
+void Binder::BindBlockBody(NodeId block) {
+  const bool draws = Draws(block);
+  if (draws) Emit({Op::kBlockBegin, 1}, SpanOf(block));
+  BindStatements(Kids(block));
+  if (!draws) return;
   Span end = SpanOf(block);
   end.begin = end.end > 0 ? end.end - 1 : 0;
   Emit({Op::kBlockEnd, 1}, end);
+}
+
+void Binder::BindPlainBlock(NodeId block) {
+  ScopeGuard guard(this);
+  BindBlockBody(block);
 }
 
 void Binder::BindLet(NodeId id) {
@@ -161,11 +190,7 @@ void Binder::BindTurn(NodeId block, Scope* scope, const std::vector<std::string>
     scope->turn_registers[name] = reg;
     Emit({Op::kCountName, 0, 0, reg, name_scope, NameIndex(name_scope, name)}, SpanOf(block));
   }
-  Emit({Op::kBlockBegin, 1}, SpanOf(block));
-  BindStatements(Kids(block));
-  Span end = SpanOf(block);
-  end.begin = end.end > 0 ? end.end - 1 : 0;
-  Emit({Op::kBlockEnd, 1}, end);
+  BindBlockBody(block);
 }
 
 // After a loop its names are lists; within a loop around it, of that one's turn.

@@ -67,6 +67,7 @@ class Binder {
   void BindStatement(NodeId id);
   void BindBlockBody(NodeId block);
   void BindPlainBlock(NodeId block);
+  bool Draws(NodeId block) const;
   void BindLet(NodeId id);
   void BindUnit(NodeId id);
   void BindForCount(NodeId id);

@@ -425,7 +425,7 @@ void Machine::Compute(const Instruction& i, const CodeUnit& unit, Value* r, Span
     }
     case Op::kFormat: {
       const int decimals = static_cast<int>(i.flags) - 1;
-      r[i.a] = b().is_string() ? b() : Value::String(Format(b(), measure, decimals));
+      r[i.a] = b().is_string() ? b() : Value::String(Format(b(), measure, decimals, &sources_));
       break;
     }
     case Op::kMember: r[i.a] = Member(ContextOf(i, span), b(), c().string()); break;
@@ -562,8 +562,8 @@ void Machine::NoteAssert(const Instruction& i, const CodeUnit& unit, const Value
   result.passed = condition.boolean();
   result.span = span;
   if (info.compares) {
-    result.value = Format(r[i.c], measure, -1);
-    result.expected = Format(r[i.c + 1], measure, -1);
+    result.value = Format(r[i.c], measure, -1, &sources_);
+    result.expected = Format(r[i.c + 1], measure, -1, &sources_);
   } else {
     result.value = result.passed ? "true" : "false";
     result.expected = "true";
