@@ -138,6 +138,7 @@ class Stage {
   bool KeyAnswers(int prompt) const;
   const KeyAnswer* FindKey(std::string_view name) const;
   const KeyAnswer* FindOf() const;
+  const KeyAnswer* FindWorkingOf() const;
   std::vector<model::ElementPtr> Chosen(Span span) const;
   std::size_t ChosenCount() const;
   void AddChosen(const model::ElementPtr& element, Span span,

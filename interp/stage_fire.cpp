@@ -64,10 +64,18 @@ void Stage::AddChosen(const ElementPtr& element, Span span, std::vector<ElementP
   out->push_back(element);  // a part of a placed element: geometry alone
 }
 
+// The `of=` that the next firing works on: a picking command's counts once, a transforming one's
+// until a firing leaves something chosen.
+const Stage::KeyAnswer* Stage::FindWorkingOf() const {
+  const KeyAnswer* of = FindOf();
+  if (!of || active_.selected) return nullptr;
+  const bool picking = active_.row->manner == Manner::kPicks || active_.row->manner == Manner::kEdits;
+  return picking && of->used ? nullptr : of;
+}
+
 std::vector<ElementPtr> Stage::Chosen(Span span) const {
   std::vector<ElementPtr> out;
-  const KeyAnswer* of = FindOf();
-  if (of && !active_.selected) {
+  if (const KeyAnswer* of = FindWorkingOf()) {
     for (const Value& item : of->value.list()) AddChosen(item.element(), of->span, &out);
     return out;
   }
@@ -81,8 +89,7 @@ std::vector<ElementPtr> Stage::Chosen(Span span) const {
 }
 
 std::size_t Stage::ChosenCount() const {
-  const KeyAnswer* of = FindOf();
-  if (of && !active_.selected) return of->value.list().size();
+  if (const KeyAnswer* of = FindWorkingOf()) return of->value.list().size();
   const bool picking = active_.row->manner == Manner::kPicks || active_.row->manner == Manner::kEdits;
   std::size_t count = active_.picks.size();
   if (!picking || active_.firings == 0) count += state_.drawing.selection.size();
