@@ -111,7 +111,12 @@ void Binder::BindArguments(const std::vector<NodeId>& args, std::size_t first, c
     const NodeId arg = args[i];
     switch (KindOf(arg)) {
       case NodeKind::kWord:
-      case NodeKind::kNumber: BindWord(arg, row); break;
+      case NodeKind::kNumber:
+        // The words of a command that lacks its separator are one mistake.
+        if (!BindWord(arg, row)) {
+          while (i + 1 < args.size() && KindOf(args[i + 1]) == NodeKind::kWord) ++i;
+        }
+        break;
       case NodeKind::kString:
         if (!row || row->string_key.empty()) {
           Error(Code::kUnknownWord, SpanOf(arg), "a string has no meaning here", "",
@@ -133,22 +138,35 @@ void Binder::BindArguments(const std::vector<NodeId>& args, std::size_t first, c
   Emit({Op::kEndStatement}, end);
 }
 
-void Binder::BindWord(NodeId id, const Command* row) {
+// Whether a command's first word is this: then its separator was forgotten.
+bool Binder::BeginsCommand(std::string_view word) const {
+  const auto begins = [&](std::string_view words) {
+    return words.substr(0, words.find(' ')) == word;
+  };
+  for (const Command& row : AllCommands()) {
+    if (begins(row.words)) return true;
+  }
+  return false;
+}
+
+bool Binder::BindWord(NodeId id, const Command* row) {
   const std::string word = Text(id);
   if (row && HasWord(row->options, word)) {
     Emit({Op::kOption, 0, 0, AddText(LowerCase(word)), 0, 0}, SpanOf(id));
-    return;
+    return true;
   }
   if (row && !row->asks.empty()) {
     Emit({Op::kOption, 0, 0, AddText(word), 0, 0}, SpanOf(id));
-    return;
+    return true;
   }
   if (KindOf(id) == NodeKind::kNumber) {
     Error(Code::kUnknownWord, SpanOf(id), "a number has no meaning here", "", "values are given by key=");
-    return;
+    return false;
   }
   std::string help = "values are given by key=, a variable's too";
-  if (row) {
+  if (BeginsCommand(LowerCase(word))) {
+    help = "a command starts a line or follows `;`";
+  } else if (row) {
     if (const auto meant = DidYouMean(LowerCase(word), SplitWords(row->options))) {
       help = "did you mean `" + *meant + "`?";
     } else if (!row->options.empty()) {
@@ -160,6 +178,7 @@ void Binder::BindWord(NodeId id, const Command* row) {
         row ? "`" + std::string(row->words) + "` does not know the word `" + Printable(word) + "`"
             : "a word stands here, but no command begins with it",
         "", help);
+  return false;
 }
 
 // The scope whose command the keys here belong to: the nearest before, in this block or one around.

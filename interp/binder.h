@@ -96,7 +96,8 @@ class Binder {
   void BindCommand(NodeId id);
   void BindArguments(const std::vector<NodeId>& args, std::size_t first, const Command* row,
                      std::uint32_t statement);
-  void BindWord(NodeId id, const Command* row);
+  bool BindWord(NodeId id, const Command* row);  // false after an error
+  bool BeginsCommand(std::string_view word) const;
   void BindKeyIn(NodeId id, std::uint32_t statement);
   void BindPoint(NodeId id, const PointKeyRow& row, const std::vector<NodeId>& values);
   void BindSetting(NodeId id, const SettingRow& row, const std::vector<NodeId>& values);

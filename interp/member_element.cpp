@@ -87,6 +87,8 @@ std::optional<Value> CurveMember(const CallContext& context, const geom::Curve& 
     return Value::OfPoint(*centroid);
   }
   if (name == "plane") {
+    // A round curve's plane is its own system: the centre is the origin.
+    if (arc || circle) return Value::Plane(arc ? arc->frame : circle->frame);
     const std::optional<geom::Frame> plane = geom::PlaneOf(curve);
     if (!plane) throw OpFailure{Code::kNotPlanar, "the curve lies in no one plane"};
     return Value::Plane(*plane);

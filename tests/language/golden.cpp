@@ -89,7 +89,8 @@ void ReadExpectations(Golden* golden) {
   for (std::size_t i = 0; i < lines.size(); ++i) {
     const std::string& line = lines[i];
     const auto number = static_cast<std::uint32_t>(i + 1);
-    const bool alone = line.rfind("# ", 0) == 0;
+    const std::size_t first = line.find_first_not_of(' ');
+    const bool alone = first != std::string::npos && line[first] == '#';
     if (!alone && !waiting.empty()) speak(number);
     for (std::sregex_iterator at(line.begin(), line.end(), kComment), end; at != end; ++at) {
       if (alone) {

@@ -13,7 +13,10 @@ namespace {
 class Runs : public testing::Test {
  public:
   explicit Runs(std::string path) : path_(std::move(path)) {}
-  void TestBody() override { EXPECT_EQ(Difference(ReadGolden(path_)), "") << path_; }
+  void TestBody() override {
+    const std::string difference = Difference(ReadGolden(path_));
+    if (!difference.empty()) FAIL() << path_ << "\n" << difference;
+  }
 
  private:
   std::string path_;
@@ -22,7 +25,10 @@ class Runs : public testing::Test {
 class RunsFormatted : public testing::Test {
  public:
   explicit RunsFormatted(std::string path) : path_(std::move(path)) {}
-  void TestBody() override { EXPECT_EQ(FormattedDifference(ReadGolden(path_)), "") << path_; }
+  void TestBody() override {
+    const std::string difference = FormattedDifference(ReadGolden(path_));
+    if (!difference.empty()) FAIL() << path_ << "\n" << difference;
+  }
 
  private:
   std::string path_;
