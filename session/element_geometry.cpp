@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "session/element_geometry.h"
+
+namespace tranos::session {
+
+namespace {
+
+using geom::Vec3;
+
+void Points(std::string_view key, const std::vector<Vec3>& points, JsonText* out) {
+  out->Key(key).Open('[');
+  for (const Vec3& point : points) out->Point(point);
+  out->Close(']');
+}
+void Ratios(std::string_view key, const std::vector<double>& numbers, JsonText* out) {
+  if (numbers.empty()) return;
+  out->Key(key).Open('[');
+  for (const double number : numbers) out->Ratio(number);
+  out->Close(']');
+}
+void Frame(const geom::Frame& frame, JsonText* out) {
+  out->Key("origin").Point(frame.origin).Key("x").Direction(frame.x).Key("y").Direction(frame.y);
+}
+
+// The members of an object, without its braces.
+class GeometryWriter {
+ public:
+  GeometryWriter(KnownPrototypes* known, JsonText* out) : known_(known), out_(out) {}
+
+  void operator()(const model::Point& point) { out_->Key("at").Point(point.position); }
+  void operator()(const model::CurvePtr& curve) { std::visit(*this, *curve); }
+  void operator()(const model::SurfacePtr& surface) { std::visit(*this, *surface); }
+  void operator()(const model::TextPtr& text) {
+    out_->Key("text").String(text->content).Key("height").Length(text->height_m);
+    Frame(text->frame, out_);
+  }
+  void operator()(const model::GroupPtr& group) {
+    out_->Key("members").Open('[');
+    for (const model::ElementPtr& member : group->members) WriteElement(*member, known_, out_);
+    out_->Close(']');
+  }
+  void operator()(const model::InstancePtr& instance) { Write(*instance); }
+  void operator()(const geom::Line& line) {
+    out_->Key("start").Point(line.start).Key("end").Point(line.end);
+  }
+  void operator()(const geom::Arc& arc) {
+    out_->Key("radius").Length(arc.radius).Key("sweep_rad").Ratio(arc.sweep_rad);
+    Frame(arc.frame, out_);
+  }
+  void operator()(const geom::Circle& circle) {
+    out_->Key("radius").Length(circle.radius);
+    Frame(circle.frame, out_);
+  }
+  void operator()(const geom::Polyline& polyline) {
+    Points("vertices", polyline.vertices, out_);
+    out_->Key("closed").Boolean(polyline.closed);
+  }
+  void operator()(const geom::BsplineCurve& curve) {
+    out_->Key("degree").Integer(curve.degree);
+    Ratios("knots", curve.knots, out_);
+    Points("poles", curve.poles, out_);
+    Ratios("weights", curve.weights, out_);
+  }
+  void operator()(const geom::Chain& chain) {
+    out_->Key("segments").Open('[');
+    for (const geom::Segment& segment : chain.segments) {
+      out_->Open('{');
+      std::visit(*this, segment);
+      out_->Close('}');
+    }
+    out_->Close(']').Key("closed").Boolean(chain.closed);
+  }
+  void operator()(const geom::BsplineSurface& surface) {
+    out_->Key("degree_u").Integer(surface.degree_u).Key("degree_v").Integer(surface.degree_v);
+    out_->Key("count_u").Integer(surface.count_u).Key("count_v").Integer(surface.count_v);
+    Ratios("knots_u", surface.knots_u, out_);
+    Ratios("knots_v", surface.knots_v, out_);
+    Points("poles", surface.poles, out_);
+    Ratios("weights", surface.weights, out_);
+  }
+  void operator()(const geom::CoonsPatch& patch) {
+    Side("south", patch.south);
+    Side("north", patch.north);
+    Side("west", patch.west);
+    Side("east", patch.east);
+  }
+
+ private:
+  void Side(std::string_view key, const geom::BsplineCurve& curve) {
+    out_->Key(key).Open('{');
+    (*this)(curve);
+    out_->Close('}');
+  }
+  void Write(const model::Instance& instance) {
+    const model::Prototype& prototype = *instance.prototype;
+    out_->Key("prototype").String(model::Hex(prototype.hash));
+    const geom::Affine& world = instance.world_from_prototype;
+    out_->Key("axes").Open('[');
+    for (int column = 0; column < 3; ++column) out_->Direction(world.linear().col(column));
+    out_->Close(']').Key("origin").Point(world.translation());
+    if (!known_->insert(prototype.hash).second) return;
+    out_->Key("parts").Open('[');
+    for (const model::ElementPtr& part : prototype.parts) WriteElement(*part, known_, out_);
+    out_->Close(']');
+  }
+
+  KnownPrototypes* known_;
+  JsonText* out_;
+};
+
+void Attributes(const model::Attributes& attributes, JsonText* out) {
+  static const model::Attributes kUsual;
+  out->Key("attributes").Open('{');
+  if (attributes.colour != kUsual.colour) out->Key("co").String(model::Describe(attributes.colour));
+  if (attributes.linestyle != kUsual.linestyle) out->Key("lc").Integer(attributes.linestyle);
+  if (attributes.weight != kUsual.weight) out->Key("wt").Integer(attributes.weight);
+  if (attributes.level != kUsual.level) out->Key("lv").String(attributes.level);
+  if (!attributes.material.empty()) out->Key("mt").String(attributes.material);
+  if (attributes.evidence != kUsual.evidence) out->Key("ev").String(model::WordOf(attributes.evidence));
+  if (!attributes.source.empty()) out->Key("source").String(attributes.source);
+  out->Close('}');
+}
+
+}  // namespace
+
+void WriteElement(const model::Element& element, KnownPrototypes* known, JsonText* out) {
+  out->Open('{').Key("id").Integer(element.id).Key("type").String(model::TypeOf(element));
+  if (element.name) out->Key("name").String(*element.name);
+  out->Key("hash").String(model::Hex(element.hash));
+  Attributes(*element.attributes, out);
+  out->Key("geometry").Open('{');
+  std::visit(GeometryWriter(known, out), element.geometry);
+  out->Close('}').Close('}');
+}
+
+}  // namespace tranos::session
