@@ -100,6 +100,16 @@ void Stage::BareString(const std::string& text, Span span) {
   if (links_.options) Tell(KeyInText(Value::String(text)), span, nullptr, {});
 }
 
+namespace {
+
+std::string Join(const std::vector<std::string>& words) {
+  std::string list;
+  for (const std::string& word : words) list += (list.empty() ? "" : ", ") + word;
+  return list;
+}
+
+}  // namespace
+
 void Stage::Parameter(std::uint32_t key, Value value, Span span) {
   if (!active_.row || key >= active_.keys.size()) {
     Fail(Code::kNoCommand, span, "the command that this parameter belongs to has ended", "",
@@ -113,9 +123,8 @@ void Stage::Parameter(std::uint32_t key, Value value, Span span) {
   }
   if (declared.type == Type::kWord && !declared.words.empty() &&
       !(value.is_string() && HasWord(declared.words, value.string()))) {
-    std::string list;
-    for (const std::string& word : SplitWords(declared.words)) list += (list.empty() ? "" : ", ") + word;
-    Fail(Code::kWrongType, span, "`" + std::string(declared.name) + "` takes no such word", "expected one of " + list);
+    Fail(Code::kWrongType, span, "`" + std::string(declared.name) + "` takes no such word",
+         "expected one of " + Join(SplitWords(declared.words)));
   }
   if (links_.options) key_in_ = std::string(declared.name) + "=" + KeyInText(value);
   answer = {std::move(value), span, true, false};
@@ -305,11 +314,15 @@ void Stage::Set(const SettingRow& row, const Value& value, Span span) {
     case SettingKey::kWeight: attributes(Attributes::kWeight, [&](Attributes& a) { a.weight = count(31); }); break;
     case SettingKey::kLevel: attributes(Attributes::kLevel, [&](Attributes& a) { a.level = value.string(); }); break;
     case SettingKey::kMaterial: attributes(Attributes::kMaterial, [&](Attributes& a) { a.material = value.string(); }); break;
-    case SettingKey::kEvidence:
-      attributes(Attributes::kEvidence, [&](Attributes& a) {
-        a.evidence = model::EvidenceOf(value.string()).value_or(model::Evidence::kNone);
-      });
+    case SettingKey::kEvidence: {
+      const auto evidence = model::EvidenceOf(value.string());
+      if (!evidence) {
+        Fail(Code::kWrongType, span, "`" + Printable(value.string()) + "` is no kind of evidence",
+             "expected one of " + Join(SplitWords(row.words)));
+      }
+      attributes(Attributes::kEvidence, [&](Attributes& a) { a.evidence = *evidence; });
       break;
+    }
     case SettingKey::kSource: attributes(Attributes::kEvidence, [&](Attributes& a) { a.source = value.string(); }); break;
     case SettingKey::kAngle: settings->angle_rad = value.number(); break;
     case SettingKey::kScale: {
