@@ -28,18 +28,29 @@ std::string ReadLimits(const std::string& text, interp::Limits* limits) {
     const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), value);
     std::uint64_t factor = 1;
     const std::string_view rest(end, static_cast<std::size_t>(number.data() + number.size() - end));
-    if (rest == "k") factor = 1000;
-    else if (rest == "M") factor = 1'000'000;
-    else if (rest == "G") factor = 1'000'000'000;
-    else if (!rest.empty()) return "`" + number + "` is no number";
-    if (error != std::errc() || value == 0 || value > UINT64_MAX / 2 / factor) return "`" + part + "` needs a number above zero";
+    if (rest == "k")
+      factor = 1000;
+    else if (rest == "M")
+      factor = 1'000'000;
+    else if (rest == "G")
+      factor = 1'000'000'000;
+    else if (!rest.empty())
+      return "`" + number + "` is no number";
+    if (error != std::errc() || value == 0 || value > UINT64_MAX / 2 / factor)
+      return "`" + part + "` needs a number above zero";
     value *= factor;
-    if (name == "steps") limits->steps = value;
-    else if (name == "elements") limits->elements = value;
-    else if (name == "memory") limits->memory = value;
-    else if (name == "depth" && value <= 1000) limits->depth = static_cast<int>(value);
-    else if (name == "depth") return "depth is at most 1000";
-    else return "there is no limit `" + name + "`: steps, elements, memory, depth";
+    if (name == "steps")
+      limits->steps = value;
+    else if (name == "elements")
+      limits->elements = value;
+    else if (name == "memory")
+      limits->memory = value;
+    else if (name == "depth" && value <= 1000)
+      limits->depth = static_cast<int>(value);
+    else if (name == "depth")
+      return "depth is at most 1000";
+    else
+      return "there is no limit `" + name + "`: steps, elements, memory, depth";
   }
   return "";
 }
@@ -51,7 +62,8 @@ void AddScriptOptions(CLI::App* verb, ScriptOptions* options, const std::string&
           [options](const std::vector<std::string>& given) {
             for (const std::string& text : given) {
               const std::size_t equals = text.find('=');
-              if (equals == 0 || equals == std::string::npos) throw CLI::ValidationError("-D", "-D takes name=value");
+              if (equals == 0 || equals == std::string::npos)
+                throw CLI::ValidationError("-D", "-D takes name=value");
               options->parameters.emplace_back(text.substr(0, equals), text.substr(equals + 1));
             }
           },
@@ -59,8 +71,11 @@ void AddScriptOptions(CLI::App* verb, ScriptOptions* options, const std::string&
       ->type_name("NAME=VALUE")
       ->allow_extra_args(false)
       ->take_all();
-  verb->add_option("--hypothesis", options->hypothesis, "the alternative to run")->type_name("NAME");
-  verb->add_option("--allow", options->allow, "a further folder that the script may read")->type_name("DIR")->allow_extra_args(false);
+  verb->add_option("--hypothesis", options->hypothesis, "the alternative to run")
+      ->type_name("NAME");
+  verb->add_option("--allow", options->allow, "a further folder that the script may read")
+      ->type_name("DIR")
+      ->allow_extra_args(false);
   verb->add_option_function<std::vector<std::string>>(
           "--limit",
           [options](const std::vector<std::string>& given) {
@@ -78,18 +93,23 @@ void AddScriptOptions(CLI::App* verb, ScriptOptions* options, const std::string&
 }  // namespace
 
 int RunCommandLine(int argc, char** argv) {
-  CLI::App app("Tranos: reconstructing buildings that no longer stand, by command scripts.", "tranos");
+  CLI::App app("Tranos: reconstructing buildings that no longer stand, by command scripts.",
+               "tranos");
   app.require_subcommand(1);
   int status = kFine;
 
   RunVerbOptions run;
   CLI::App* verb = app.add_subcommand("run", "run a script: model, pictures, report");
   AddScriptOptions(verb, &run.script, "script");
-  verb->add_option("-o,--output", run.output, "the folder to write to")->type_name("DIR")->capture_default_str();
+  verb->add_option("-o,--output", run.output, "the folder to write to")
+      ->type_name("DIR")
+      ->capture_default_str();
   verb->add_flag("--json", run.json, "report on standard output as JSON");
   verb->add_flag("--no-output", run.no_output, "write nothing");
-  verb->add_option("--journal", run.journal, "write what was done, step by step")->type_name("FILE");
-  verb->add_option("--threads", run.threads, "threads for pictures; as many as cores if not given")->check(CLI::Range(1, 256));
+  verb->add_option("--journal", run.journal, "write what was done, step by step")
+      ->type_name("FILE");
+  verb->add_option("--threads", run.threads, "threads for pictures; as many as cores if not given")
+      ->check(CLI::Range(1, 256));
   verb->callback([&] { status = RunVerb(run); });
 
   ScriptOptions check;

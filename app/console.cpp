@@ -10,8 +10,10 @@ namespace tranos::app {
 void PrintOut(std::string_view text) { std::fwrite(text.data(), 1, text.size(), stdout); }
 void PrintError(std::string_view text) { std::fwrite(text.data(), 1, text.size(), stderr); }
 
+bool ErrorsAreOnTerminal() { return isatty(STDERR_FILENO) != 0; }
+
 void PrintDiagnostics(const interp::Diagnostics& diagnostics, const interp::Sources& sources) {
-  const bool colour = isatty(STDERR_FILENO) != 0;
+  const bool colour = ErrorsAreOnTerminal();
   for (const interp::Diagnostic& diagnostic : diagnostics.list()) {
     PrintError(interp::RenderText(diagnostic, sources, colour));
   }
@@ -20,21 +22,10 @@ void PrintDiagnostics(const interp::Diagnostics& diagnostics, const interp::Sour
     shown += diagnostic.severity() == interp::Severity::kError;
   }
   if (diagnostics.error_count() > shown) {
-    PrintError("and " + std::to_string(diagnostics.error_count() - shown) + " errors more\n");
+    PrintError("and " + std::to_string(diagnostics.error_count() - shown) + " more errors\n");
   }
 }
 
 void PrintFailure(std::string_view message) { PrintError("error: " + std::string(message) + "\n"); }
-
-void Progress::Tell(std::string_view doing) {
-  if (!isatty(STDERR_FILENO)) return;
-  PrintError("\r\033[K" + std::string(doing));
-  std::fflush(stderr);
-  shown_ = true;
-}
-
-Progress::~Progress() {
-  if (shown_) PrintError("\r\033[K");
-}
 
 }  // namespace tranos::app

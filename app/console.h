@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <memory>
 #include <string>
 #include <string_view>
 
@@ -14,15 +15,25 @@ void PrintError(std::string_view text);
 void PrintDiagnostics(const interp::Diagnostics& diagnostics, const interp::Sources& sources);
 // "error: …" for what has no place in a script.
 void PrintFailure(std::string_view message);
+bool ErrorsAreOnTerminal();
 
-// A line on the terminal that tells how far long work has come; nothing where standard error is no terminal.
+// A line on the terminal that tells how far long work has come. It appears once the work has taken
+// half a second; where standard error is no terminal, never.
 class Progress {
  public:
-  void Tell(std::string_view doing);  // shown only once the work has taken a while
+  Progress();
   ~Progress();
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+
+  // From now on the line says this.
+  void Tell(std::string doing);
+  // Takes the line away, so that something can be printed in its place.
+  void Hide();
 
  private:
-  bool shown_ = false;
+  struct Line;
+  std::unique_ptr<Line> line_;  // null where there is no terminal
 };
 
 }  // namespace tranos::app

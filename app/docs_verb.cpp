@@ -16,7 +16,8 @@ int DocsVerb(const DocsOptions& options) {
     return kScriptIsWrong;
   }
   if (const auto written = ReplaceNamedFile(options.file, text); !written) {
-    PrintFailure("`" + interp::Printable(options.file) + "` cannot be written: " + written.error().detail);
+    PrintFailure("`" + interp::Printable(options.file) +
+                 "` cannot be written: " + written.error().detail);
     return kFileFailed;
   }
   PrintOut(interp::Printable(options.file) + "\n");

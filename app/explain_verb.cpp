@@ -11,11 +11,13 @@ int ExplainVerb(const std::string& code) {
     std::vector<std::string> known;
     for (interp::Code each : interp::AllCodes()) known.emplace_back(interp::InfoOf(each).code);
     const auto meant = interp::DidYouMean(code, known);
-    PrintFailure("there is no diagnostic `" + interp::Printable(code) + "`" + (meant ? ": did you mean " + *meant + "?" : ""));
+    PrintFailure("there is no diagnostic `" + interp::Printable(code) + "`" +
+                 (meant ? ": did you mean " + *meant + "?" : ""));
     return kCommandLineIsWrong;
   }
   const interp::CodeInfo& info = interp::InfoOf(*found);
-  PrintOut(std::string(info.code) + ": " + std::string(info.title) + "\n\n" + std::string(info.explanation) + "\n");
+  PrintOut(std::string(info.code) + ": " + std::string(info.title) + "\n\n" +
+           std::string(info.explanation) + "\n");
   return kFine;
 }
 

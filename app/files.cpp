@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
 
 namespace tranos::app {
@@ -41,7 +42,8 @@ tl::expected<std::string, HostError> ReadAll(int file) {
   struct stat info {};
   if (fstat(file, &info) != 0) return FromErrno();
   if (!S_ISREG(info.st_mode)) return Refuse(HostError::kOutside, "not a regular file");
-  if (static_cast<std::uint64_t>(info.st_size) > kLargest) return Refuse(HostError::kFailed, "the file is too large");
+  if (static_cast<std::uint64_t>(info.st_size) > kLargest)
+    return Refuse(HostError::kFailed, "the file is too large");
   bytes.resize(static_cast<std::size_t>(info.st_size));
   std::size_t done = 0;
   while (done < bytes.size()) {
@@ -84,7 +86,13 @@ tl::expected<void, HostError> WriteAll(int file, std::string_view bytes) {
 
 }  // namespace
 
-tl::expected<void, HostError> ReplaceNamedFile(const std::string& path, std::string_view bytes) {
+tl::expected<void, HostError> ReplaceNamedFile(const std::string& given, std::string_view bytes) {
+  // What a link leads to is replaced, and not the link.
+  std::string path = given;
+  if (char* const real = realpath(given.c_str(), nullptr)) {
+    path = real;
+    std::free(real);
+  }
   struct stat info {};
   const bool there = stat(path.c_str(), &info) == 0;
   if (there && !S_ISREG(info.st_mode)) return Refuse(HostError::kOutside, "not a regular file");
@@ -112,14 +120,17 @@ Sandbox::~Sandbox() {
 
 tl::expected<std::string, HostError> Sandbox::Read(std::string_view path) {
   const std::string wanted(path);
-  if (wanted.find('\0') != std::string::npos) return Refuse(HostError::kOutside, "the path holds a NUL");
-  tl::expected<std::string, HostError> result = Refuse(HostError::kOutside, "there is no folder to read from");
+  if (wanted.find('\0') != std::string::npos)
+    return Refuse(HostError::kOutside, "the path holds a NUL");
+  tl::expected<std::string, HostError> result =
+      Refuse(HostError::kOutside, "there is no folder to read from");
   for (const auto& [folder, descriptor] : folders_) {
     std::string below = wanted;
     if (wanted.starts_with('/')) {
       // An absolute path may lead below a folder that was allowed by that path.
       if (!wanted.starts_with(folder + "/")) {
-        result = Refuse(HostError::kOutside, "it is not below the script's folder, nor one given by --allow");
+        result = Refuse(HostError::kOutside,
+                        "it is not below the script's folder, nor one given by --allow");
         continue;
       }
       below = wanted.substr(folder.size() + 1);
@@ -155,83 +166,132 @@ bool Sandbox::WasRead(std::uint64_t device, std::uint64_t inode) const {
 }
 
 tl::expected<Writer, HostError> Writer::Into(const std::string& folder, const Sandbox* sandbox) {
+  Writer writer(sandbox);
   for (std::size_t at = 0; at != std::string::npos;) {
     at = folder.find('/', at + 1);
     const std::string part = folder.substr(0, at);
-    if (!part.empty() && mkdir(part.c_str(), 0777) != 0 && errno != EEXIST) return FromErrno();
+    if (mkdir(part.c_str(), 0777) == 0)
+      writer.made_.push_back(part);
+    else if (errno != EEXIST)
+      return FromErrno();
   }
-  const int descriptor = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (descriptor < 0) return FromErrno();
-  return Writer(descriptor, sandbox);
+  writer.folder_ = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (writer.folder_ < 0) return FromErrno();
+  return writer;
 }
 
 Writer::Writer(Writer&& other) noexcept
-    : folder_(std::exchange(other.folder_, -1)), sandbox_(other.sandbox_), pending_(std::move(other.pending_)) {
-  other.pending_.clear();
-}
+    : folder_(std::exchange(other.folder_, -1)),
+      sandbox_(other.sandbox_),
+      pending_(std::exchange(other.pending_, {})),
+      made_(std::exchange(other.made_, {})),
+      made_below_(std::exchange(other.made_below_, {})) {}
 
 Writer::~Writer() {
   for (const Pending& file : pending_) {
     if (!file.temporary.empty()) unlinkat(file.folder, file.temporary.c_str(), 0);
     close(file.folder);
   }
+  for (auto path = made_below_.rbegin(); path != made_below_.rend(); ++path) {
+    unlinkat(folder_, path->c_str(), AT_REMOVEDIR);
+  }
   if (folder_ >= 0) close(folder_);
+  for (auto path = made_.rbegin(); path != made_.rend(); ++path) rmdir(path->c_str());
+}
+
+namespace {
+
+// "plans/east.png" → "plans" and "east.png"; "." if the path names no folder.
+std::pair<std::string, std::string> Split(const std::string& path) {
+  const std::size_t slash = path.rfind('/');
+  if (slash == std::string::npos) return {".", path};
+  return {path.substr(0, slash), path.substr(slash + 1)};
+}
+
+tl::expected<void, HostError> CheckPath(const std::string& path) {
+  if (path.starts_with('/'))
+    return Refuse(HostError::kOutside, "it is not below the output folder");
+  if (std::any_of(path.begin(), path.end(),
+                  [](unsigned char c) { return c < 0x20 || c == 0x7f; })) {
+    return Refuse(HostError::kOutside, "the name holds a control character");
+  }
+  const std::string name = Split(path).second;
+  if (name.empty() || name == "." || name == "..")
+    return Refuse(HostError::kOutside, "it names no file");
+  if (EndsWith(path, ".trn")) return Refuse(HostError::kProtected, "a run writes no script");
+  return {};
+}
+
+tl::unexpected<HostError> FolderError() {
+  if (errno == EXDEV || errno == ELOOP)
+    return Refuse(HostError::kOutside, "it leads out of the output folder");
+  return FromErrno();
+}
+
+}  // namespace
+
+tl::expected<void, HostError> Writer::CheckPlace(int folder, const std::string& name) const {
+  struct stat info {};
+  if (fstatat(folder, name.c_str(), &info, AT_SYMLINK_NOFOLLOW) != 0) return {};
+  if (S_ISLNK(info.st_mode)) return Refuse(HostError::kOutside, "a symbolic link has this name");
+  if (!S_ISREG(info.st_mode))
+    return Refuse(HostError::kOutside, "something that is no regular file has this name");
+  if (sandbox_ && sandbox_->WasRead(info.st_dev, info.st_ino)) {
+    return Refuse(HostError::kProtected, "the run has read this file");
+  }
+  return {};
+}
+
+tl::expected<void, HostError> Writer::Check(const std::string& path) const {
+  if (auto sound = CheckPath(path); !sound) return sound;
+  const auto [above, name] = Split(path);
+  const int folder = OpenBelow(folder_, above, O_RDONLY | O_DIRECTORY);
+  if (folder < 0 && errno == ENOENT) return {};
+  if (folder < 0) return FolderError();
+  auto free = CheckPlace(folder, name);
+  close(folder);
+  return free;
+}
+
+// The folder of a file, made if it is missing.
+int Writer::MakeFolder(const std::string& path) {
+  for (std::size_t slash = 0; slash != std::string::npos;) {
+    slash = path.find('/', slash + 1);
+    const auto [above, name] = Split(path.substr(0, slash));
+    const int parent = OpenBelow(folder_, above, O_RDONLY | O_DIRECTORY);
+    if (parent < 0) return -1;
+    if (mkdirat(parent, name.c_str(), 0777) == 0) made_below_.push_back(path.substr(0, slash));
+    close(parent);
+  }
+  return OpenBelow(folder_, path, O_RDONLY | O_DIRECTORY);
 }
 
 tl::expected<void, HostError> Writer::Write(const std::string& path, std::string_view bytes) {
-  if (path.empty() || path.find('\0') != std::string::npos || path.starts_with('/')) {
-    return Refuse(HostError::kOutside, "it is not below the output folder");
-  }
-  if (EndsWith(path, ".trn")) return Refuse(HostError::kProtected, "a run writes no script");
-  std::string folder = ".";
-  std::string name = path;
-  for (std::size_t slash = path.find('/'); slash != std::string::npos; slash = path.find('/', slash + 1)) {
-    folder = path.substr(0, slash);
-    name = path.substr(slash + 1);
-    const std::size_t last = folder.rfind('/');
-    const std::string above = last == std::string::npos ? "." : folder.substr(0, last);
-    const int parent = OpenBelow(folder_, above, O_RDONLY | O_DIRECTORY);
-    if (parent < 0) break;
-    mkdirat(parent, folder.substr(last == std::string::npos ? 0 : last + 1).c_str(), 0777);
-    close(parent);
-  }
-  const int parent = OpenBelow(folder_, folder, O_RDONLY | O_DIRECTORY);
-  if (parent < 0) {
-    if (errno == EXDEV || errno == ELOOP) return Refuse(HostError::kOutside, "it leads out of the output folder");
-    return FromErrno();
-  }
-  if (name.empty() || name == "." || name == "..") {
-    close(parent);
-    return Refuse(HostError::kOutside, "it names no file");
-  }
-  struct stat info {};
-  if (fstatat(parent, name.c_str(), &info, AT_SYMLINK_NOFOLLOW) == 0) {
-    const bool regular = S_ISREG(info.st_mode);
-    if (!regular || (sandbox_ && sandbox_->WasRead(info.st_dev, info.st_ino))) {
-      close(parent);
-      if (!regular) return Refuse(HostError::kOutside, "something that is no regular file has this name");
-      return Refuse(HostError::kProtected, "the run has read this file");
-    }
-  }
-  const std::string temporary = ".tranos-" + std::to_string(getpid()) + "-" + std::to_string(pending_.size());
-  pending_.push_back({parent, temporary, name});
-  const int file = openat(parent, temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
-  if (file < 0) {
-    pending_.back().temporary.clear();
-    return FromErrno();
-  }
-  if (auto written = WriteAll(file, bytes); !written) {
-    close(file);
-    return written;
-  }
-  if (close(file) != 0) return FromErrno();
-  return {};
+  if (auto sound = CheckPath(path); !sound) return sound;
+  const auto [above, name] = Split(path);
+  const int folder =
+      above == "." ? OpenBelow(folder_, above, O_RDONLY | O_DIRECTORY) : MakeFolder(above);
+  if (folder < 0) return FolderError();
+  pending_.push_back({folder, "", name});
+  if (auto free = CheckPlace(folder, name); !free) return free;
+  const std::string temporary =
+      ".tranos-" + std::to_string(getpid()) + "-" + std::to_string(pending_.size());
+  const int file =
+      openat(folder, temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
+  if (file < 0) return FromErrno();
+  pending_.back().temporary = temporary;
+  auto written = WriteAll(file, bytes);
+  if (close(file) != 0 && written) written = FromErrno();
+  return written;
 }
 
 tl::expected<void, HostError> Writer::PutInPlace() {
   for (Pending& file : pending_) {
-    if (renameat(file.folder, file.temporary.c_str(), file.folder, file.name.c_str()) != 0) return FromErrno();
+    if (renameat(file.folder, file.temporary.c_str(), file.folder, file.name.c_str()) != 0)
+      return FromErrno();
     file.temporary.clear();
+    made_.clear();
+    made_below_.clear();
   }
   return {};
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The disk. Scripts read below their own folder and write below the output folder; no symbolic link is
-// followed, only regular files are opened, and files appear whole or not at all.
+// The disk. Scripts read below their own folder and write below the output folder; no symbolic link
+// is followed, only regular files are opened, and files appear whole or not at all.
 #pragma once
 
 #include <cstdint>
@@ -42,22 +42,27 @@ class Sandbox {
   std::vector<std::pair<std::uint64_t, std::uint64_t>> read_;
 };
 
-// Files that appear together: all are written aside first, and put in place only when all are complete.
+// Files that appear together: all are written aside first, and put in place only when all are
+// complete.
 class Writer {
  public:
   // Makes the folder if it is missing.
   static tl::expected<Writer, HostError> Into(const std::string& folder, const Sandbox* sandbox);
   Writer(Writer&& other) noexcept;
   Writer& operator=(Writer&&) = delete;
-  ~Writer();  // what was not put in place is removed
+  ~Writer();  // what was not put in place is removed, folders made for it too
 
-  // `path` is below the folder. Refused: scripts, files that the run has read, anything but a regular file in the
-  // place of which it would be put.
+  // Whether a file may be put at this path below the folder. Refused: scripts, files that the run
+  // has read, and the place of anything but a regular file.
+  tl::expected<void, HostError> Check(const std::string& path) const;
   tl::expected<void, HostError> Write(const std::string& path, std::string_view bytes);
   tl::expected<void, HostError> PutInPlace();
 
  private:
-  explicit Writer(int folder, const Sandbox* sandbox) : folder_(folder), sandbox_(sandbox) {}
+  explicit Writer(const Sandbox* sandbox) : sandbox_(sandbox) {}
+  tl::expected<void, HostError> CheckPlace(int folder, const std::string& name) const;
+  int MakeFolder(const std::string& path);
+
   struct Pending {
     int folder;  // descriptor of the file's own folder
     std::string temporary, name;
@@ -65,6 +70,8 @@ class Writer {
   int folder_ = -1;
   const Sandbox* sandbox_ = nullptr;
   std::vector<Pending> pending_;
+  std::vector<std::string> made_;        // folders, from where the program was started
+  std::vector<std::string> made_below_;  // folders below the output folder
 };
 
 }  // namespace tranos::app

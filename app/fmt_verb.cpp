@@ -29,7 +29,8 @@ std::optional<std::string> Formatted(const std::string& path, std::string text) 
 std::string StandardInput() {
   std::string text;
   char buffer[65536];
-  for (std::size_t got; (got = std::fread(buffer, 1, sizeof buffer, stdin)) > 0;) text.append(buffer, got);
+  for (std::size_t got; (got = std::fread(buffer, 1, sizeof buffer, stdin)) > 0;)
+    text.append(buffer, got);
   return text;
 }
 
@@ -63,7 +64,8 @@ int FmtVerb(const FmtOptions& options) {
     return formatted ? kFine : kScriptIsWrong;
   }
   int status = kFine;
-  for (const std::string& path : options.files) status = std::max(status, FormatFile(path, options.check));
+  for (const std::string& path : options.files)
+    status = std::max(status, FormatFile(path, options.check));
   return status;
 }
 

@@ -16,7 +16,9 @@ int HelpVerb(const std::vector<std::string>& words) {
     if (c >= 'A' && c <= 'Z') c = static_cast<char>(c + 32);
   }
   if (lower.empty()) {
-    PrintOut(CommandList() + "\ntranos help COMMAND tells of one; tranos help functions, tranos help settings list those.\n");
+    PrintOut(CommandList() +
+             "\ntranos help COMMAND tells of one; tranos help functions, tranos help settings list "
+             "those.\n");
     return kFine;
   }
   if (lower == "functions" || lower == "settings") {
@@ -50,7 +52,8 @@ int HelpVerb(const std::vector<std::string>& words) {
     return kFine;
   }
   const auto meant = interp::DidYouMean(lower, known);
-  PrintFailure("there is no command `" + interp::Printable(joined) + "`" + (meant ? ": did you mean `" + *meant + "`?" : ""));
+  PrintFailure("there is no command `" + interp::Printable(joined) + "`" +
+               (meant ? ": did you mean `" + *meant + "`?" : ""));
   return kCommandLineIsWrong;
 }
 

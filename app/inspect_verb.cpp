@@ -6,9 +6,13 @@
 namespace tranos::app {
 
 int InspectVerb(const ScriptOptions& options) {
-  const ScriptRun run = RunScriptFile(options, true);
+  ScriptRun run = [&] {
+    Progress progress;
+    return RunScriptFile(options, true, {}, &progress);
+  }();
+  NamePathsFromHere(options, &run);
   PrintProblems(run);
-  if (run.status == kFine || run.status == kAssertionFailed) PrintOut(ReportTable(run));
+  if (run.made_model()) PrintTable(run);
   return run.status;
 }
 

@@ -1,83 +1,123 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/outputs.h"
 
+#include <algorithm>
+#include <new>
 #include <thread>
 
-#include "app/console.h"
 #include "output/write.h"
 
 namespace tranos::app {
 
 namespace {
 
+using interp::Code;
+using interp::Diagnostic;
+using interp::Span;
+
+// Of the model that is written unasked.
+constexpr Span kNoPlace{UINT32_MAX, 0, 0};
+
+struct Request {
+  model::OutputRequest what;
+  std::string path;  // below the output folder
+  Span span;
+};
+
 // "elements/church.trn" → "church"
 std::string StemOf(const std::string& path) {
-  const std::size_t slash = path.rfind('/');
-  std::string name = slash == std::string::npos ? path : path.substr(slash + 1);
+  std::string name = path.substr(path.rfind('/') + 1);
   const std::size_t dot = name.rfind('.');
   if (dot != std::string::npos && dot > 0) name.resize(dot);
   return name;
 }
 
-struct FileBytes {
-  std::string path;
-  std::string bytes;
-};
-
-output::Result<FileBytes> BytesOf(const model::OutputRequest& request, const std::string& stem, int* picture,
-                                  int threads) {
-  if (const auto* exported = std::get_if<model::ExportRequest>(&request)) {
-    auto bytes = output::ExportOf(exported->model, exported->file);
-    if (!bytes) return tl::unexpected(bytes.error());
-    return FileBytes{exported->file, std::move(*bytes)};
+// The model first, then what the script asked for in its order; of two with one path the later
+// stays.
+std::vector<Request> RequestsOf(const interp::Outcome& outcome, const std::string& stem) {
+  std::vector<Request> all;
+  const auto add = [&](model::OutputRequest what, std::string path, Span span) {
+    std::erase_if(all, [&](const Request& earlier) { return earlier.path == path; });
+    all.push_back({std::move(what), std::move(path), span});
+  };
+  const std::string model_path = stem + ".glb";
+  add(model::ExportRequest{outcome.state.model, model_path}, model_path, kNoPlace);
+  int picture = 0;
+  for (std::size_t i = 0; i < outcome.outputs.size(); ++i) {
+    const model::OutputRequest& what = outcome.outputs[i];
+    const auto* render = std::get_if<model::RenderRequest>(&what);
+    std::string path = render ? render->file : std::get<model::ExportRequest>(what).file;
+    if (render && path.empty()) path = stem + "-" + std::to_string(++picture) + ".png";
+    add(what, std::move(path), outcome.output_spans[i]);
   }
-  model::RenderRequest render = std::get<model::RenderRequest>(request);
-  if (render.file.empty()) render.file = stem + "-" + std::to_string(++*picture) + ".png";
-  auto bytes = output::PictureFileOf(render, threads);
-  if (!bytes) return tl::unexpected(bytes.error());
-  return FileBytes{render.file, std::move(*bytes)};
+  return all;
 }
 
-int StatusOf(const interp::HostError& error) {
-  const bool refused = error.kind == interp::HostError::kOutside || error.kind == interp::HostError::kProtected;
-  return refused ? kScriptIsWrong : kFileFailed;
+tl::expected<std::string, Diagnostic> BytesOf(const Request& request, int threads) {
+  const auto refused = [&](Code code, std::string why, std::string help) {
+    return tl::unexpected(Diagnostic{code, request.span,
+                                     "`" + request.path + "` cannot be made: " + std::move(why), "",
+                                     std::move(help)});
+  };
+  try {
+    const auto* exported = std::get_if<model::ExportRequest>(&request.what);
+    auto bytes = exported
+                     ? output::ExportOf(exported->model, exported->file)
+                     : output::PictureFileOf(std::get<model::RenderRequest>(request.what), threads);
+    if (bytes) return std::move(*bytes);
+    return refused(Code::kTooManyFacets, bytes.error().message,
+                   "a larger `tol` or a smaller `fn` gives fewer facets");
+  } catch (const std::bad_alloc&) {
+    return refused(Code::kMemoryLimit, "it takes more memory than the limit",
+                   "--limit memory=N raises it");
+  }
+}
+
+Diagnostic FromHost(const interp::HostError& error, const std::string& path, Span span) {
+  using Kind = interp::HostError::Kind;
+  const Code code = error.kind == Kind::kOutside     ? Code::kOutsideSandbox
+                    : error.kind == Kind::kProtected ? Code::kProtectedFile
+                                                     : Code::kCannotWrite;
+  return {code, span, "`" + path + "` cannot be written: " + error.detail, "", ""};
+}
+
+Written Failed(Diagnostic diagnostic) {
+  Written written;
+  written.status = diagnostic.code == Code::kCannotWrite ? kFileFailed : kScriptIsWrong;
+  written.diagnostics.Add(std::move(diagnostic));
+  return written;
 }
 
 }  // namespace
 
-Written WriteOutputs(const ScriptRun& run, const RunVerbOptions& options) {
-  const std::string stem = StemOf(options.script.script);
-  const int threads = options.threads > 0 ? options.threads : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-  std::vector<model::OutputRequest> requests{
-      model::ExportRequest{run.result.outcome.state.model, stem + ".glb"}};
-  for (const model::OutputRequest& request : run.result.outcome.outputs) requests.push_back(request);
-
+Written WriteOutputs(const ScriptRun& run, const RunVerbOptions& options, Progress* progress) {
+  const int threads = options.threads > 0
+                          ? options.threads
+                          : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  const std::vector<Request> requests =
+      RequestsOf(run.result.outcome, StemOf(options.script.script));
   auto writer = Writer::Into(options.output, run.sandbox.get());
-  if (!writer) {
-    PrintFailure("the folder `" + interp::Printable(options.output) + "` cannot be written: " + writer.error().detail);
-    return {kFileFailed, {}};
+  if (!writer) return Failed(FromHost(writer.error(), options.output, kNoPlace));
+  // Refusals come before long work.
+  for (const Request& request : requests) {
+    if (const auto free = writer->Check(request.path); !free) {
+      return Failed(FromHost(free.error(), request.path, request.span));
+    }
   }
   Written written;
-  Progress progress;
-  int picture = 0;
   for (std::size_t i = 0; i < requests.size(); ++i) {
-    if (requests.size() > 1) {
-      progress.Tell("writing " + std::to_string(i + 1) + " of " + std::to_string(requests.size()));
+    const Request& request = requests[i];
+    progress->Tell("writing " + interp::Printable(request.path) + ", " + std::to_string(i + 1) +
+                   " of " + std::to_string(requests.size()));
+    const auto bytes = BytesOf(request, threads);
+    if (!bytes) return Failed(bytes.error());
+    if (const auto put = writer->Write(request.path, *bytes); !put) {
+      return Failed(FromHost(put.error(), request.path, request.span));
     }
-    const auto file = BytesOf(requests[i], stem, &picture, threads);
-    if (!file) {
-      PrintFailure(file.error().message);
-      return {kScriptIsWrong, {}};
-    }
-    if (const auto put = writer->Write(file->path, file->bytes); !put) {
-      PrintFailure("`" + interp::Printable(file->path) + "` cannot be written: " + put.error().detail);
-      return {StatusOf(put.error()), {}};
-    }
-    written.files.push_back({options.output + "/" + file->path, file->bytes.size()});
+    written.files.push_back({options.output + "/" + request.path, bytes->size()});
   }
   if (const auto placed = writer->PutInPlace(); !placed) {
-    PrintFailure("the output cannot be written: " + placed.error().detail);
-    return {kFileFailed, {}};
+    return Failed(FromHost(placed.error(), options.output, kNoPlace));
   }
   return written;
 }

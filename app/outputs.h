@@ -2,20 +2,20 @@
 // The model and pictures of a run, as bytes, and their place on the disk.
 #pragma once
 
-#include <string>
 #include <vector>
 
+#include "app/console.h"
 #include "app/report.h"
 #include "app/verbs.h"
 
 namespace tranos::app {
 
-// Makes DIR/<stem>.glb and what the script renders and exports; all appear, or none. What goes
-// wrong is told on standard error; the status says what kind it was.
 struct Written {
-  int status = kFine;
+  int status = kFine;  // of the writing alone
   std::vector<OutputFile> files;
+  interp::Diagnostics diagnostics;
 };
-Written WriteOutputs(const ScriptRun& run, const RunVerbOptions& options);
+// Makes DIR/<stem>.glb and what the script renders and exports; all appear, or none.
+Written WriteOutputs(const ScriptRun& run, const RunVerbOptions& options, Progress* progress);
 
 }  // namespace tranos::app

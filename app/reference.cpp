@@ -29,38 +29,49 @@ std::string Pad(std::string text, std::size_t width) {
 // How a command runs, in a sentence made from its row.
 std::string MannerOf(const Command& c) {
   std::string prompts;
-  for (std::size_t i = 0; i < c.prompts.size(); ++i) prompts += (i ? ", then " : "") + Text(c.prompts[i].name);
+  for (std::size_t i = 0; i < c.prompts.size(); ++i)
+    prompts += (i ? ", then " : "") + Text(c.prompts[i].name);
   switch (c.manner) {
-    case Manner::kImmediate: return "Asks for no data point; runs at the end of its statement.";
+    case Manner::kImmediate:
+      return "Asks for no data point; runs at the end of its statement.";
     case Manner::kPlaces:
     case Manner::kTransforms: {
       std::string out = "Asks for " + prompts;
       if (static_cast<std::size_t>(c.again) < c.prompts.size()) {
-        out += c.again > 0 ? "; then again from " + Text(c.prompts[static_cast<std::size_t>(c.again)].name) : "; then begins anew";
+        out += c.again > 0
+                   ? "; then again from " + Text(c.prompts[static_cast<std::size_t>(c.again)].name)
+                   : "; then begins anew";
       }
       if (c.manner == Manner::kTransforms) out += ". Works on `of=` or on what is chosen";
       return out + ".";
     }
     case Manner::kGathers:
-      return "Gathers data points, " + std::to_string(c.least) + " or more, and makes one element when it ends.";
+      return "Gathers data points, " + std::to_string(c.least) +
+             " or more, and makes one element when it ends.";
     case Manner::kPicks:
-      return "Takes `of=`, or what is chosen and picked by data points; a point farther than `lt` from everything, or the command's end, accepts.";
+      return "Takes `of=`, or what is chosen and picked by data points; a point farther than `lt` "
+             "from everything, or the command's end, accepts.";
     case Manner::kEdits:
-      return "Takes `of=`, or what is chosen, or picks by data points; a point farther than `lt` from everything accepts picks.";
-    case Manner::kChooses: return "Takes the nearest element within `lt` at each data point.";
+      return "Takes `of=`, or what is chosen, or picks by data points; a point farther than `lt` "
+             "from everything accepts picks.";
+    case Manner::kChooses:
+      return "Takes the nearest element within `lt` at each data point.";
   }
   return "";
 }
 
 std::string Words(std::string_view list) {
   std::string out;
-  for (const std::string& word : interp::SplitWords(list)) out += (out.empty() ? "`" : ", `") + word + "`";
+  for (const std::string& word : interp::SplitWords(list))
+    out += (out.empty() ? "`" : ", `") + word + "`";
   return out;
 }
 
 std::string KeyLine(const interp::Key& key, const Command& c) {
   std::string line = "`" + Text(key.name) + "=` " +
-                     (key.type == interp::Type::kWord ? "one of " + Words(key.words) : (key.list ? "a list, each " : "") + Text(Describe(key.type)));
+                     (key.type == interp::Type::kWord
+                          ? "one of " + Words(key.words)
+                          : (key.list ? "a list, each " : "") + Text(Describe(key.type)));
   if (!key.summary.empty()) line += ": " + Text(key.summary);
   if (key.prompt >= 0 && static_cast<std::size_t>(key.prompt) < c.prompts.size()) {
     line += "; answers \"" + Text(c.prompts[static_cast<std::size_t>(key.prompt)].name) + "\"";
@@ -72,10 +83,12 @@ std::string KeyLine(const interp::Key& key, const Command& c) {
 
 std::string CommandSection(const Command& c) {
   std::string out = "### " + Text(c.words) + "\n\n" + Text(c.summary) + "\n\n";
-  if (!IsThere(c)) return out + "Part of the language; not carried out by this version (E0001).\n\n";
+  if (!IsThere(c))
+    return out + "Part of the language; not carried out by this version (E0001).\n\n";
   out += MannerOf(c) + "\n\n";
   if (!c.options.empty()) out += "Words: " + Words(c.options) + ".\n\n";
-  if (!c.asks.empty()) out += "Asks for a " + Text(c.asks) + ", written as a bare word or number.\n\n";
+  if (!c.asks.empty())
+    out += "Asks for a " + Text(c.asks) + ", written as a bare word or number.\n\n";
   if (!c.string_key.empty()) out += "A bare string is its `" + Text(c.string_key) + "`.\n\n";
   for (const interp::Key& key : c.keys) out += "- " + KeyLine(key, c) + "\n";
   if (!c.keys.empty()) out += "\n";
@@ -93,7 +106,8 @@ template <class F>
 void ForEachFamily(F&& f) {
   std::vector<std::string_view> families;
   for (const Command& c : interp::AllCommands()) {
-    if (std::find(families.begin(), families.end(), c.family) == families.end()) families.push_back(c.family);
+    if (std::find(families.begin(), families.end(), c.family) == families.end())
+      families.push_back(c.family);
   }
   for (std::string_view family : families) f(family);
 }
@@ -111,7 +125,8 @@ std::string Plain(std::string text) {
 
 std::string HelpOf(const Command& c) {
   std::string out = Text(c.words) + "\n  " + Text(c.summary) + "\n\n";
-  if (!IsThere(c)) return out + "  Part of the language; not carried out by this version (E0001).\n";
+  if (!IsThere(c))
+    return out + "  Part of the language; not carried out by this version (E0001).\n";
   out += "  " + Plain(MannerOf(c)) + "\n";
   if (!c.options.empty()) out += "  Words: " + Plain(Words(c.options)) + "\n";
   if (!c.asks.empty()) out += "  Asks for a " + Text(c.asks) + ".\n";
@@ -135,7 +150,8 @@ std::string CommandList() {
     out += Text(family) + "\n";
     for (const Command& c : interp::AllCommands()) {
       if (c.family != family) continue;
-      out += "  " + Pad(Text(c.words), 30) + Text(c.summary) + (IsThere(c) ? "" : " (not there yet)") + "\n";
+      out += "  " + Pad(Text(c.words), 30) + Text(c.summary) +
+             (IsThere(c) ? "" : " (not there yet)") + "\n";
     }
   });
   return out;
@@ -160,9 +176,11 @@ std::string SettingList() {
 
 std::string Reference() {
   std::string out =
-      "# Reference\n\nGenerated by `tranos docs` from the tables of the program; a test fails when it is stale.\n"
+      "# Reference\n\nGenerated by `tranos docs` from the tables of the program; a test fails when "
+      "it is stale.\n"
       "The language itself is told in [language.md](language.md).\n\n## Data points\n\n";
-  for (const interp::PointKeyRow& row : interp::AllPointKeys()) out += "- `" + Text(row.key) + "=` " + Text(row.summary) + "\n";
+  for (const interp::PointKeyRow& row : interp::AllPointKeys())
+    out += "- `" + Text(row.key) + "=` " + Text(row.summary) + "\n";
   out += "\n## Settings\n\n| key | what it sets | at the start |\n|---|---|---|\n";
   for (const interp::SettingRow& row : interp::AllSettings()) {
     std::string summary = Text(row.summary);
@@ -176,10 +194,13 @@ std::string Reference() {
     }
   });
   out += "## Functions\n\n| function | what it gives |\n|---|---|\n";
-  for (const interp::Builtin& row : interp::AllBuiltins()) out += "| `" + Text(row.usage) + "` | " + Text(row.summary) + " |\n";
-  out += "\n## Diagnostics\n\n`tranos explain CODE` tells more.\n\n| code | situation |\n|---|---|\n";
+  for (const interp::Builtin& row : interp::AllBuiltins())
+    out += "| `" + Text(row.usage) + "` | " + Text(row.summary) + " |\n";
+  out +=
+      "\n## Diagnostics\n\n`tranos explain CODE` tells more.\n\n| code | situation |\n|---|---|\n";
   for (interp::Code code : interp::AllCodes()) {
-    out += "| " + Text(interp::InfoOf(code).code) + " | " + Text(interp::InfoOf(code).title) + " |\n";
+    out +=
+        "| " + Text(interp::InfoOf(code).code) + " | " + Text(interp::InfoOf(code).title) + " |\n";
   }
   return out;
 }

@@ -20,10 +20,13 @@ ordered_json Number(const std::optional<double>& value) {
 
 ordered_json BoxJson(const geom::Box& box) {
   if (box.empty()) return nullptr;
-  return {{"min", {box.min.x(), box.min.y(), box.min.z()}}, {"max", {box.max.x(), box.max.y(), box.max.z()}}};
+  return {{"min", {box.min.x(), box.min.y(), box.min.z()}},
+          {"max", {box.max.x(), box.max.y(), box.max.z()}}};
 }
 
-ordered_json Text(std::string_view text) { return text.empty() ? ordered_json(nullptr) : ordered_json(text); }
+ordered_json Text(std::string_view text) {
+  return text.empty() ? ordered_json(nullptr) : ordered_json(text);
+}
 
 ordered_json ElementJson(const model::Element& element, model::ElementId parent) {
   return {{"id", element.id},
@@ -42,11 +45,17 @@ ordered_json ElementJson(const model::Element& element, model::ElementId parent)
 
 // The element, and a group's members after it, each with its parent.
 template <class F>
-void ForEachListed(const model::Element& element, model::ElementId parent, F&& f) {
+void ForEachBelow(const model::Element& element, model::ElementId parent, F&& f) {
   f(element, parent);
   if (const auto* group = std::get_if<model::GroupPtr>(&element.geometry)) {
-    for (const model::ElementPtr& member : (*group)->members) ForEachListed(*member, element.id, f);
+    for (const model::ElementPtr& member : (*group)->members) ForEachBelow(*member, element.id, f);
   }
+}
+
+template <class F>
+void ForEachListed(const model::Model& model, F&& f) {
+  model.ForEach(
+      [&](const model::ElementPtr& element) { ForEachBelow(*element, model::kNoElement, f); });
 }
 
 ordered_json AssertJson(const interp::AssertResult& assertion, const interp::Sources& sources) {
@@ -65,9 +74,38 @@ ordered_json AssertJson(const interp::AssertResult& assertion, const interp::Sou
             {"end", assertion.span.end}}}};
 }
 
+// A list of the report, printed entry by entry.
+class JsonList {
+ public:
+  explicit JsonList(const char* name) { PrintOut("  \"" + std::string(name) + "\": ["); }
+  void Add(const ordered_json& entry) {
+    PrintOut((any_ ? ",\n    " : "\n    ") +
+             entry.dump(-1, ' ', false, ordered_json::error_handler_t::replace));
+    any_ = true;
+  }
+  void End(bool last = false) {
+    PrintOut(any_ ? "\n  ]" : "]");
+    PrintOut(last ? "\n}\n" : ",\n");
+  }
+
+ private:
+  bool any_ = false;
+};
+
+bool BeginsCharacter(char c) { return (c & 0xC0) != 0x80; }
+
+// Padded or cut to a width in characters, with a space before the next cell.
 std::string Cell(std::string text, std::size_t width, bool right) {
-  if (text.size() > width) text = text.substr(0, width - 1) + "~";
-  const std::string space(width - text.size(), ' ');
+  auto columns = static_cast<std::size_t>(std::count_if(text.begin(), text.end(), BeginsCharacter));
+  if (columns >= width) {
+    for (; columns > width - 2; --columns) {
+      while (!BeginsCharacter(text.back())) text.pop_back();
+      text.pop_back();
+    }
+    text += "…";
+    ++columns;
+  }
+  const std::string space(width - columns, ' ');
   return right ? space + text : text + space;
 }
 
@@ -80,56 +118,49 @@ std::string Measure(const std::optional<double>& value, const char* unit) {
 
 }  // namespace
 
-std::string ReportJson(const ScriptRun& run, int status, const std::vector<OutputFile>& outputs) {
-  ordered_json elements = ordered_json::array();
+void PrintJson(const ScriptRun& run, const std::vector<OutputFile>& outputs) {
   const model::Model& model = run.result.outcome.state.model;
-  if (status != kScriptIsWrong) {
-    model.ForEach([&](const model::ElementPtr& element) {
-      ForEachListed(*element, model::kNoElement, [&](const model::Element& listed, model::ElementId parent) {
-        elements.push_back(ElementJson(listed, parent));
-      });
-    });
+  // A million elements are printed one by one.
+  PrintOut("{\n  \"status\": " + std::to_string(run.status) + ",\n  \"model_hash\": " +
+           (run.made_model() ? "\"" + model::Hex(model.hash) + "\"" : "null") + ",\n");
+  JsonList elements("elements");
+  if (run.made_model())
+    ForEachListed(model, [&](auto&... listed) { elements.Add(ElementJson(listed...)); });
+  elements.End();
+  JsonList files("outputs");
+  for (const OutputFile& file : outputs) files.Add({{"path", file.path}, {"bytes", file.bytes}});
+  files.End();
+  JsonList asserts("asserts");
+  for (const interp::AssertResult& assertion : run.result.outcome.asserts) {
+    asserts.Add(AssertJson(assertion, *run.result.sources));
   }
-  ordered_json files = ordered_json::array();
-  for (const OutputFile& file : outputs) files.push_back({{"path", file.path}, {"bytes", file.bytes}});
-  ordered_json asserts = ordered_json::array();
-  ordered_json diagnostics = ordered_json::array();
-  if (run.result.sources) {
-    for (const interp::AssertResult& assertion : run.result.outcome.asserts) {
-      asserts.push_back(AssertJson(assertion, *run.result.sources));
-    }
-    for (const interp::Diagnostic& diagnostic : run.result.diagnostics.list()) {
-      diagnostics.push_back(ordered_json::parse(interp::RenderJson(diagnostic, *run.result.sources)));
-    }
+  asserts.End();
+  JsonList("cameras").End();
+  JsonList diagnostics("diagnostics");
+  for (const interp::Diagnostic& diagnostic : run.result.diagnostics.list()) {
+    diagnostics.Add(ordered_json::parse(interp::RenderJson(diagnostic, *run.result.sources)));
   }
-  const ordered_json report = {{"status", status},
-                               {"model_hash", model::Hex(model.hash)},
-                               {"elements", std::move(elements)},
-                               {"outputs", std::move(files)},
-                               {"asserts", std::move(asserts)},
-                               {"cameras", ordered_json::array()},
-                               {"diagnostics", std::move(diagnostics)}};
-  return report.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+  diagnostics.End(true);
 }
 
-std::string ReportTable(const ScriptRun& run) {
+void PrintTable(const ScriptRun& run) {
   const model::Model& model = run.result.outcome.state.model;
-  std::string out = Cell("id", 6, true) + "  " + Cell("name", 20, false) + Cell("type", 18, false) + Cell("level", 10, false) +
-                    Cell("evidence", 12, false) + Cell("length", 16, true) + Cell("area", 18, true) +
-                    Cell("volume", 18, true) + "\n";
-  model.ForEach([&](const model::ElementPtr& top) {
-    ForEachListed(*top, model::kNoElement, [&](const model::Element& element, model::ElementId parent) {
-      const std::string indent = parent == model::kNoElement ? "" : "· ";
-      out += Cell(std::to_string(element.id), 6, true) + "  " +
-             Cell(indent + interp::Printable(element.name_or_empty()), indent.empty() ? 20 : 21, false) +
-             Cell(model::TypeOf(element), 18, false) + Cell(element.attributes->level, 10, false) +
+  PrintOut(Cell("id", 6, true) + "  " + Cell("name", 20, false) + Cell("type", 18, false) +
+           Cell("level", 10, false) + Cell("evidence", 12, false) + Cell("length", 16, true) +
+           Cell("area", 18, true) + Cell("volume", 18, true) + "\n");
+  ForEachListed(model, [](const model::Element& element, model::ElementId parent) {
+    const std::string indent = parent == model::kNoElement ? "" : "· ";
+    PrintOut(Cell(std::to_string(element.id), 6, true) + "  " +
+             Cell(indent + interp::Printable(element.name_or_empty()), 20, false) +
+             Cell(interp::Printable(model::TypeOf(element)), 18, false) +
+             Cell(interp::Printable(element.attributes->level), 10, false) +
              Cell(std::string(model::WordOf(element.attributes->evidence)), 12, false) +
-             Cell(Measure(model::Length(element), "m"), 16, true) + Cell(Measure(model::Area(element), "m2"), 18, true) +
-             Cell(Measure(model::Volume(element), "m3"), 18, true) + "\n";
-    });
+             Cell(Measure(model::Length(element), "m"), 16, true) +
+             Cell(Measure(model::Area(element), "m2"), 18, true) +
+             Cell(Measure(model::Volume(element), "m3"), 18, true) + "\n");
   });
-  out += std::to_string(model.live) + (model.live == 1 ? " element" : " elements") + ", model hash " + model::Hex(model.hash) + "\n";
-  return out;
+  PrintOut(std::to_string(model.live) + (model.live == 1 ? " element" : " elements") +
+           ", model hash " + model::Hex(model.hash) + "\n");
 }
 
 }  // namespace tranos::app

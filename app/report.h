@@ -14,9 +14,10 @@ struct OutputFile {
   std::uint64_t bytes;
 };
 
-// `tranos run --json`: SI units and degrees whatever the working unit; docs/language.md lists the members.
-std::string ReportJson(const ScriptRun& run, int status, const std::vector<OutputFile>& outputs);
+// `tranos run --json`, on standard output: SI units and degrees whatever the working unit;
+// docs/language.md lists the members. A run without a model has no elements and no hash.
+void PrintJson(const ScriptRun& run, const std::vector<OutputFile>& outputs);
 // `tranos inspect`: the same elements, a line each.
-std::string ReportTable(const ScriptRun& run);
+void PrintTable(const ScriptRun& run);
 
 }  // namespace tranos::app

@@ -65,6 +65,9 @@ class Diagnostics {
 
 // As in LANGUAGE.md section 9, with source line and carets; control characters are shown escaped.
 std::string RenderText(const Diagnostic& diagnostic, const Sources& sources, bool colour);
+// The place alone, as it stands below a diagnostic's first line: path, source line, carets, label.
+std::string RenderPlace(const Span& span, std::string_view label, const Sources& sources,
+                        bool colour);
 // One JSON object: severity, code, message, label, help, path, line, column, end_line, end_column,
 // begin, end (bytes), notes.
 std::string RenderJson(const Diagnostic& diagnostic, const Sources& sources);

@@ -131,6 +131,11 @@ class TextRenderer {
     return std::move(out_);
   }
 
+  std::string RunPlace() {
+    AddSnippet(diagnostic_.span, diagnostic_.label);
+    return std::move(out_);
+  }
+
  private:
   bool Shows(const Span& span) const {
     return span.file < sources_.files.size() && !sources_.files[span.file].line_starts.empty();
@@ -201,6 +206,12 @@ std::string Printable(std::string_view text) {
 
 std::string RenderText(const Diagnostic& diagnostic, const Sources& sources, bool colour) {
   return TextRenderer(diagnostic, sources, colour).Run();
+}
+
+std::string RenderPlace(const Span& span, std::string_view label, const Sources& sources,
+                        bool colour) {
+  const Diagnostic at_place{Code::kNotYet, span, "", std::string(label), ""};
+  return TextRenderer(at_place, sources, colour).RunPlace();
 }
 
 std::string RenderJson(const Diagnostic& diagnostic, const Sources& sources) {

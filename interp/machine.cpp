@@ -35,6 +35,7 @@ bool FastCompare(Op op, double a, double b) {
 
 Machine::Machine(const Program& program, const RunOptions& options, const Host& host)
     : program_(program), options_(options), host_(host), budget_(options.limits) {
+  if (options.on_progress) budget_.on_progress = &options.on_progress;
   innermost_.resize(program.units.size(), {nullptr, nullptr});
   places_.resize(program.scopes.size());
 }
@@ -46,6 +47,7 @@ StageLinks Machine::LinksFor(bool is_script) {
           is_script && options_.on_step ? &options_ : nullptr,
           &host_,
           is_script ? &outcome_.outputs : nullptr,
+          is_script ? &outcome_.output_spans : nullptr,
           [this](const Placement& placement, const model::State& state) { return Place(placement, state); },
           &turns_,
           &turn_values_};

@@ -66,6 +66,8 @@ struct AssertResult {
 struct RunOptions {
   Limits limits;
   std::function<void(const Step&)> on_step;  // null: steps are not told, and cost nothing
+  // Told the steps done, at every 65536th or so: what shows progress reads the clock itself. May be null.
+  std::function<void(std::uint64_t steps)> on_progress = {};
 };
 
 struct Outcome {
@@ -73,6 +75,7 @@ struct Outcome {
   Diagnostics diagnostics;  // an error among them: the run stopped there, and nothing is to be written
   std::vector<AssertResult> asserts;
   std::vector<model::OutputRequest> outputs;
+  std::vector<Span> output_spans;  // of each of these: its file's name, or else the command
   std::vector<std::pair<std::string, model::Value>> lets;  // of the top level, for tests and inspection
   std::uint64_t steps = 0;
 };

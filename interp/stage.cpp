@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "interp/commands/placement.h"
 #include "interp/functions.h"
 
 namespace tranos::interp {
@@ -24,7 +25,9 @@ void Budget::ChargeSteps(std::uint64_t count, Span span) {
     Fail(Code::kStepLimit, span, "the limit of " + std::to_string(limits.steps) + " steps is reached", "",
          "--limit steps=N raises it");
   }
+  const std::uint64_t before = steps_left;
   steps_left -= count;
+  if (on_progress && (before ^ steps_left) >> 16 != 0) (*on_progress)(limits.steps - steps_left);
 }
 
 void Budget::ChargeElements(std::uint64_t count, Span span) {
@@ -205,7 +208,7 @@ void Stage::Point(PointKey kind, const Value& values, Span span) {
     case PointKey::kAx: return TakePoint(plane.ToWorld({v.x(), v.y(), z}), span);
     case PointKey::kDl: return TakePoint(last + plane.ToWorld(v) - plane.origin, span);
     case PointKey::kDi: {
-      const Vec3 local(v.x() * std::cos(v.y()), v.x() * std::sin(v.y()), 0);
+      const Vec3 local = Rotation(Vec3::Zero(), Vec3::UnitZ(), v.y()) * Vec3(v.x(), 0, 0);
       return TakePoint(last + plane.ToWorld(local) - plane.origin, span);
     }
     case PointKey::kDx: {

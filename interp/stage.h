@@ -24,6 +24,7 @@ struct Budget {
   std::uint64_t steps_left;
   std::uint64_t elements_made = 0;
   Limits limits;
+  const std::function<void(std::uint64_t)>* on_progress = nullptr;
   void ChargeSteps(std::uint64_t count, Span span);
   void ChargeElements(std::uint64_t count, Span span);
   // A list, string or range about to be made: refused before it takes the memory.
@@ -51,6 +52,7 @@ struct StageLinks {
   const RunOptions* options;  // for on_step; null for a definition's body
   const Host* host;
   std::vector<model::OutputRequest>* outputs;  // null for a definition's body
+  std::vector<Span>* output_spans;             // likewise
   std::function<model::ElementPtr(const Placement&, const model::State&)> place;
   const std::vector<std::uint32_t>* turns;
   const std::vector<const model::Value*>* turn_values;  // the loops' variables

@@ -163,7 +163,11 @@ void Stage::Fire(Span span) {
     if (links_.host->print) links_.host->print(line);
   }
   if (links_.outputs) {
-    for (model::OutputRequest& output : result->edit.outputs) links_.outputs->push_back(output);
+    const Span named = active_.has_text ? active_.text_span : SpanOf({Where::kKey, 0, "file"});
+    for (model::OutputRequest& output : result->edit.outputs) {
+      links_.outputs->push_back(output);
+      links_.output_spans->push_back(named);
+    }
   }
   links_.budget->ChargeElements(result->edit.added.size(), span);
   if (result->edit.ChangesModel()) history_.push_back(state_);

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <atomic>
+#include <exception>
+#include <mutex>
 #include <system_error>
 #include <thread>
 #include <vector>
@@ -11,8 +13,17 @@ namespace tranos::output {
 
 void ParallelFor(std::size_t count, int threads, const std::function<void(std::size_t)>& work) {
   std::atomic<std::size_t> next{0};
+  std::exception_ptr failure;
+  std::mutex failing;
+  // An exception (memory has a limit) ends the work and is passed on to the caller.
   const auto take = [&] {
-    for (std::size_t i = next++; i < count; i = next++) work(i);
+    try {
+      for (std::size_t i = next++; i < count; i = next++) work(i);
+    } catch (...) {
+      next = count;
+      const std::lock_guard lock(failing);
+      failure = std::current_exception();
+    }
   };
   const std::size_t helper_count =
       std::min<std::size_t>(static_cast<std::size_t>(std::max(threads, 1)), count);
@@ -23,6 +34,8 @@ void ParallelFor(std::size_t count, int threads, const std::function<void(std::s
     // The machine gives no more threads: those that run do the work.
   }
   take();
+  helpers.clear();
+  if (failure) std::rethrow_exception(failure);
 }
 
 }  // namespace tranos::output
