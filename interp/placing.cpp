@@ -59,7 +59,13 @@ Hash128 Machine::KeyOf(const Definition& definition, const Registers& registers)
   for (std::size_t i = 0; i < definition.parameters.size(); ++i) AddToHash(hasher, registers[i]);
   for (const auto& [unit, reg] : OuterOf(definition.unit)) {
     const Activation& activation = innermost_[unit];
-    if (activation.registers) AddToHash(hasher, activation.registers[reg]);
+    if (!activation.registers) continue;
+    const Value& value = activation.registers[reg];
+    AddToHash(hasher, value);
+    // A function value has no content to hash: only itself is the same.
+    if (value.kind() == Value::Kind::kClosure) {
+      hasher.Integer(static_cast<std::int64_t>(reinterpret_cast<std::intptr_t>(value.closure().code.get())));
+    }
   }
   for (const auto& [scope, index] : outer_names_[definition.unit]) {
     const ScopePlace& place = places_[scope];

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "model/value.h"
 
+#include <unordered_map>
+
 #include <algorithm>
 #include <iterator>
 
@@ -227,7 +229,7 @@ bool Same(const Value& a, const Value& b) {
     const auto [left, right] = pending.back();
     pending.pop_back();
     if (!SameButForItems(*left, *right)) return false;
-    if (!left->is_list()) continue;
+    if (!left->is_list() || &left->list() == &right->list()) continue;
     for (std::size_t i = 0; i < left->list().size(); ++i) {
       pending.emplace_back(&left->list()[i], &right->list()[i]);
     }
@@ -236,16 +238,41 @@ bool Same(const Value& a, const Value& b) {
 }
 
 void AddToHash(Hasher& hasher, const Value& value) {
-  std::vector<const Value*> pending = {&value};
-  while (!pending.empty()) {
-    const Value* next = pending.back();
-    pending.pop_back();
-    AddButForItems(hasher, *next);
-    if (!next->is_list()) continue;
-    for (auto item = next->list().rbegin(); item != next->list().rend(); ++item) {
-      pending.push_back(&*item);
+  if (!value.is_list()) return AddButForItems(hasher, value);
+  // Lists may be deep, and may share parts so often that their written-out length is beyond any
+  // bound: each is hashed once, without descending by recursion.
+  struct Open {
+    const Value* list;
+    std::size_t next;
+    Hasher hasher;
+  };
+  std::unordered_map<const std::vector<Value>*, Hash128> known;
+  std::vector<Open> open;
+  const auto begin = [&](const Value& list) {
+    open.push_back({&list, 0, {}});
+    AddButForItems(open.back().hasher, list);
+  };
+  begin(value);
+  while (!open.empty()) {
+    Open& top = open.back();
+    const std::vector<Value>& items = top.list->list();
+    if (top.next == items.size()) {
+      known.emplace(&items, top.hasher.Finish());
+      open.pop_back();
+      continue;
+    }
+    const Value& item = items[top.next];
+    if (!item.is_list()) {
+      AddButForItems(top.hasher, item);
+      ++top.next;
+    } else if (const auto found = known.find(&item.list()); found != known.end()) {
+      top.hasher.Hash(found->second);
+      ++top.next;
+    } else {
+      begin(item);
     }
   }
+  hasher.Hash(known.at(&value.list()));
 }
 
 }  // namespace tranos::model
