@@ -132,6 +132,7 @@ class Stage {
     std::size_t history_size;
     std::size_t first_id;
     model::State before;
+    bool touches_outside = false;  // it changed elements that stood before it
   };
   void TakePoint(const geom::Vec3& point, Span span);
   void AnswerPrompt(const geom::Vec3& point, Span span);
@@ -146,12 +147,14 @@ class Stage {
   void AddChosen(const model::ElementPtr& element, Span span,
                  std::vector<model::ElementPtr>* out) const;
   void Fire(Span span);
+  void GuardChanges(model::Edit* edit) const;
   void FirePlacement(Span span);
   void FireHistory(Span span);
   void AskAgain();
   void CheckRequired(Span span) const;
   void CheckUnused() const;
   Answers MakeAnswers(Span span) const;
+  void NoteOutside(const model::Edit& edit);
   void Commit(const model::Edit& edit, Span span);
   void End(Span span, bool is_reset);
   void EndPicking(bool is_reset, Span span);
@@ -164,6 +167,7 @@ class Stage {
   void UndoToMark(const std::string& name, Span span);
   void Redo(Span span);
   void RestoreModel(const model::State& earlier);
+  void TakeIds();
 
   StageLinks links_;
   model::State state_;
@@ -174,6 +178,7 @@ class Stage {
   std::vector<model::State> history_;  // the state before each firing that changed the model
   std::vector<model::State> undone_;
   std::size_t history_base_ = 0;
+  std::size_t ids_given_ = 0;  // an id is given once in a run, that of an undone element too
   std::vector<std::pair<std::string, std::size_t>> marks_;
   std::string key_in_;  // text of the key-in being carried out, when steps are told
 };

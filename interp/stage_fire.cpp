@@ -146,6 +146,28 @@ void Stage::CheckRequired(Span span) const {
   }
 }
 
+// What was made into something else, and parts of placed elements, lend their geometry alone.
+void Stage::GuardChanges(model::Edit* edit) const {
+  const auto& entries = state_.model.entries;
+  const auto guard = [&](ElementId id) {
+    const KeyAnswer* of = FindOf();
+    const Span at = of ? of->span : active_.span;
+    const std::string verb = "`" + std::string(active_.row->words) + "`";
+    if (id >= entries.size()) {
+      Fail(Code::kWrongElement, at, verb + " cannot change a part of a placed element by itself", "",
+           "`drop` the placed element first, or `copy` the part");
+    }
+    const model::Entry& entry = entries[id];
+    if (entry.standing != model::Standing::kConsumed) return;
+    const std::string name = entry.element->name ? "`" + Printable(*entry.element->name) + "`" : "the element";
+    Fail(Code::kNoLongerThere, at, name + " was made into something else, so " + verb + " cannot change it", "",
+         "`copy` takes its geometry, `keep=true` would have left it in the model");
+  };
+  for (const ElementPtr& element : edit->replaced) guard(element->id);
+  for (const ElementId id : edit->deleted) guard(id);
+  std::erase_if(edit->consumed, [&](ElementId id) { return id >= entries.size(); });
+}
+
 void Stage::Fire(Span span) {
   const Command& row = *active_.row;
   CheckRequired(span);
@@ -158,6 +180,7 @@ void Stage::Fire(Span span) {
   }
   CommandResult result = row.execute(state_, answers);
   if (!result) throw RunFailure{MakeDiagnostic(result.error())};
+  GuardChanges(&result->edit);
   for (const CommandError& warning : result->warnings) links_.diagnostics->Add(MakeDiagnostic(warning));
   for (const std::string& line : result->messages) {
     if (links_.host->print) links_.host->print(line);
@@ -195,9 +218,25 @@ void Stage::FirePlacement(Span span) {
   AskAgain();
 }
 
+// A group that changes what stood before it is told of: the names around it then mean something else.
+void Stage::NoteOutside(const model::Edit& edit) {
+  if (groups_.empty()) return;
+  const std::size_t first = groups_.back().first_id;
+  const auto outside = [&](ElementId id) { return id < first; };
+  const auto element_outside = [&](const ElementPtr& element) { return outside(element->id); };
+  groups_.back().touches_outside =
+      groups_.back().touches_outside || std::any_of(edit.replaced.begin(), edit.replaced.end(), element_outside) ||
+      std::any_of(edit.released.begin(), edit.released.end(), element_outside) ||
+      std::any_of(edit.consumed.begin(), edit.consumed.end(), outside) ||
+      std::any_of(edit.deleted.begin(), edit.deleted.end(), outside) ||
+      std::any_of(edit.grouped.begin(), edit.grouped.end(), outside);
+}
+
 // Carries an edit out, remembers what it made, and tells of it.
 void Stage::Commit(const model::Edit& edit, Span span) {
   if (edit.ChangesModel()) undone_.clear();
+  TakeIds();
+  NoteOutside(edit);
   if (edit.selection) active_.selected = true;
   const bool grows = !edit.added.empty() || !edit.released.empty();
   model::Applied applied = model::Apply(std::move(state_), edit);
@@ -347,13 +386,18 @@ void Stage::FireHistory(Span span) {
 
 // What undo brings back: the model, the names, `last` and the selection; settings stay.
 void Stage::RestoreModel(const model::State& earlier) {
-  const std::size_t size = state_.model.entries.size();
+  ids_given_ = std::max(ids_given_, state_.model.entries.size());
   state_.model = earlier.model;
-  // An id is given once in a run: those that are undone stay taken.
-  while (state_.model.entries.size() < size) state_.model.entries.Append({nullptr, model::Standing::kDeleted});
   state_.drawing.names = earlier.drawing.names;
   state_.drawing.last = earlier.drawing.last;
   state_.drawing.selection = earlier.drawing.selection;
+}
+
+// The ids of elements that were undone stay taken.
+void Stage::TakeIds() {
+  while (state_.model.entries.size() < ids_given_) {
+    state_.model.entries.Append({nullptr, model::Standing::kDeleted});
+  }
 }
 
 void Stage::Undo(Span span) {
@@ -363,6 +407,9 @@ void Stage::Undo(Span span) {
   undone_.push_back(state_);
   RestoreModel(history_.back());
   history_.pop_back();
+  marks_.erase(std::remove_if(marks_.begin(), marks_.end(),
+                              [&](const auto& mark) { return mark.second > history_.size(); }),
+               marks_.end());
   made_.clear();
 }
 
