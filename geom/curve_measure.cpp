@@ -173,6 +173,12 @@ Result<double> EnclosedArea(const Curve& curve) {
   if (!IsClosed(curve)) return tl::unexpected(Error{ErrorCode::kNotClosed, "the curve is open"});
   const std::optional<Frame> plane = PlaneOf(curve);
   if (!plane) {
+    // What goes forth and back along a line lies in many planes.
+    const Box box = BoundingBox(curve);
+    const double widest_m2 = (box.max - box.min).squaredNorm();
+    if (AreaVector(curve, box.min).norm() <= 1e-12 * widest_m2) {
+      return tl::unexpected(Error{ErrorCode::kDegenerate, "the curve encloses no area"});
+    }
     return tl::unexpected(Error{ErrorCode::kNotPlanar, "the curve does not lie in one plane"});
   }
   return std::abs(AreaVector(curve, plane->origin).dot(plane->z()));
