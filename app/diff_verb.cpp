@@ -11,7 +11,8 @@ namespace tranos::app {
 
 namespace {
 
-// Runs a script, or the script of a journal; the status is not kFine if there is nothing to compare.
+// Runs a script, or the script of a journal; the status is not kFine if there is nothing to
+// compare.
 int RunForDiff(const std::string& path, session::RunRecord* record) {
   session::OriginRecorder recorder(record);
   const auto on_step = [&](const interp::Step& step) { recorder.Add(step); };
@@ -25,7 +26,8 @@ int RunForDiff(const std::string& path, session::RunRecord* record) {
     LimitMemory(journal->settings.limits.memory);
     record->result = session::RunJournal(*journal, on_step, {});
     PrintDiagnostics(record->result.diagnostics, *record->result.sources);
-    return record->result.ran && !record->result.diagnostics.has_errors() ? kFine : kCommandLineIsWrong;
+    return record->result.ran && !record->result.diagnostics.has_errors() ? kFine
+                                                                          : kCommandLineIsWrong;
   }
   ScriptOptions options;
   options.script = path;

@@ -12,7 +12,8 @@ namespace tranos::app {
 int ReplayVerb(const ReplayOptions& options) {
   const auto text = ReadNamedFile(options.journal);
   if (!text) {
-    PrintFailure("`" + interp::Printable(options.journal) + "` cannot be read: " + text.error().detail);
+    PrintFailure("`" + interp::Printable(options.journal) +
+                 "` cannot be read: " + text.error().detail);
     return kFileFailed;
   }
   const auto journal = session::ReadJournal(*text);
@@ -26,9 +27,11 @@ int ReplayVerb(const ReplayOptions& options) {
     PrintError(session::RenderText(finding, options.journal));
   }
   using Report = session::ReplayReport;
-  if (report.verdict == Report::kDiffers || report.verdict == Report::kBroken) return kScriptIsWrong;
+  if (report.verdict == Report::kDiffers || report.verdict == Report::kBroken)
+    return kScriptIsWrong;
   const bool is_equal = report.verdict == Report::kEqual;
-  PrintOut(std::to_string(report.steps) + " steps, " + (is_equal ? "equal\n" : "equal within tolerance\n"));
+  PrintOut(std::to_string(report.steps) + " steps, " +
+           (is_equal ? "equal\n" : "equal within tolerance\n"));
   return kFine;
 }
 

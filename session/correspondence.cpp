@@ -113,9 +113,11 @@ double ToleranceOf(const std::vector<Vec3>& points) {
   return 4e-9 * largest;
 }
 
-double LargestResidual(const std::vector<Vec3>& p, const std::vector<Vec3>& q, const Eigen::Matrix3d& turn, const Vec3& shift) {
+double LargestResidual(const std::vector<Vec3>& p, const std::vector<Vec3>& q,
+                       const Eigen::Matrix3d& turn, const Vec3& shift) {
   double largest = 0;
-  for (std::size_t i = 0; i < p.size(); ++i) largest = std::max(largest, (turn * p[i] + shift - q[i]).norm());
+  for (std::size_t i = 0; i < p.size(); ++i)
+    largest = std::max(largest, (turn * p[i] + shift - q[i]).norm());
   return largest;
 }
 
@@ -126,8 +128,10 @@ bool IsRigid(const std::vector<Vec3>& p, const std::vector<Vec3>& q, double tole
   centre_p /= static_cast<double>(p.size());
   centre_q /= static_cast<double>(p.size());
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-  for (std::size_t i = 0; i < p.size(); ++i) covariance += (q[i] - centre_q) * (p[i] - centre_p).transpose();
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(covariance, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  for (std::size_t i = 0; i < p.size(); ++i)
+    covariance += (q[i] - centre_q) * (p[i] - centre_p).transpose();
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(covariance,
+                                              Eigen::ComputeFullU | Eigen::ComputeFullV);
   Eigen::Matrix3d signs = Eigen::Matrix3d::Identity();
   if ((svd.matrixU() * svd.matrixV().transpose()).determinant() < 0) signs(2, 2) = -1;
   const Eigen::Matrix3d turn = svd.matrixU() * signs * svd.matrixV().transpose();
@@ -137,7 +141,8 @@ bool IsRigid(const std::vector<Vec3>& p, const std::vector<Vec3>& q, double tole
 // The parts of an element that are drawn, each in the world.
 std::vector<model::Geometry> LeavesOf(const model::Element& element) {
   std::vector<model::Geometry> leaves;
-  model::ForEachLeaf(element, [&](const model::Element& leaf, const geom::Affine& world, const model::Attributes&) {
+  model::ForEachLeaf(element, [&](const model::Element& leaf, const geom::Affine& world,
+                                  const model::Attributes&) {
     const bool in_place = world.matrix() == geom::Affine::Identity().matrix();
     leaves.push_back(in_place ? leaf.geometry : model::Transformed(leaf, world)->geometry);
   });
@@ -151,7 +156,8 @@ double Largest(const std::vector<Vec3>& p, const std::vector<Vec3>& q) {
 double CurveDistance(const geom::Curve& a, const geom::Curve& b) {
   const auto *p = std::get_if<geom::Polyline>(&a), *q = std::get_if<geom::Polyline>(&b);
   if (p && q && p->vertices.size() == q->vertices.size()) return Largest(p->vertices, q->vertices);
-  const bool straight = std::holds_alternative<geom::Line>(a) && std::holds_alternative<geom::Line>(b);
+  const bool straight =
+      std::holds_alternative<geom::Line>(a) && std::holds_alternative<geom::Line>(b);
   const int samples = straight ? 1 : kCurveSamples;
   double largest = 0;
   for (int i = 0; i <= samples; ++i) {
@@ -163,11 +169,13 @@ double CurveDistance(const geom::Curve& a, const geom::Curve& b) {
 
 double SurfaceDistance(const geom::Surface& a, const geom::Surface& b) {
   const auto *p = std::get_if<geom::BsplineSurface>(&a), *q = std::get_if<geom::BsplineSurface>(&b);
-  if (p && q && p->poles.size() == q->poles.size() && p->count_u == q->count_u) return Largest(p->poles, q->poles);
+  if (p && q && p->poles.size() == q->poles.size() && p->count_u == q->count_u)
+    return Largest(p->poles, q->poles);
   double largest = 0;
   for (int i = 0; i <= kSurfaceSamples; ++i) {
     for (int j = 0; j <= kSurfaceSamples; ++j) {
-      const double u = static_cast<double>(i) / kSurfaceSamples, v = static_cast<double>(j) / kSurfaceSamples;
+      const double u = static_cast<double>(i) / kSurfaceSamples,
+                   v = static_cast<double>(j) / kSurfaceSamples;
       largest = std::max(largest, (geom::PointAt(a, u, v) - geom::PointAt(b, u, v)).norm());
     }
   }
@@ -187,10 +195,14 @@ double TextDistance(const geom::Text& a, const geom::Text& b) {
 
 std::optional<double> LeafDistance(const model::Geometry& a, const model::Geometry& b) {
   if (a.index() != b.index()) return std::nullopt;
-  if (const auto* p = std::get_if<model::Point>(&a)) return (p->position - std::get<model::Point>(b).position).norm();
-  if (const auto* p = std::get_if<model::CurvePtr>(&a)) return CurveDistance(**p, *std::get<model::CurvePtr>(b));
-  if (const auto* p = std::get_if<model::SurfacePtr>(&a)) return SurfaceDistance(**p, *std::get<model::SurfacePtr>(b));
-  if (const auto* p = std::get_if<model::TextPtr>(&a)) return TextDistance(**p, *std::get<model::TextPtr>(b));
+  if (const auto* p = std::get_if<model::Point>(&a))
+    return (p->position - std::get<model::Point>(b).position).norm();
+  if (const auto* p = std::get_if<model::CurvePtr>(&a))
+    return CurveDistance(**p, *std::get<model::CurvePtr>(b));
+  if (const auto* p = std::get_if<model::SurfacePtr>(&a))
+    return SurfaceDistance(**p, *std::get<model::SurfacePtr>(b));
+  if (const auto* p = std::get_if<model::TextPtr>(&a))
+    return TextDistance(**p, *std::get<model::TextPtr>(b));
   return std::nullopt;
 }
 
@@ -199,13 +211,17 @@ std::optional<double> LeafDistance(const model::Geometry& a, const model::Geomet
 std::optional<Displacement> RigidDisplacement(const model::Element& a, const model::Element& b) {
   if (a.geometry.index() != b.geometry.index()) return std::nullopt;
   const Skeleton p(a), q(b);
-  if (p.points().size() != q.points().size() || p.points().empty() || p.Structure() != q.Structure()) return std::nullopt;
+  if (p.points().size() != q.points().size() || p.points().empty() ||
+      p.Structure() != q.Structure())
+    return std::nullopt;
   const double tolerance = ToleranceOf(q.points());
   const Vec3 shift = q.points()[0] - p.points()[0];
-  const double by_shift = LargestResidual(p.points(), q.points(), Eigen::Matrix3d::Identity(), shift);
+  const double by_shift =
+      LargestResidual(p.points(), q.points(), Eigen::Matrix3d::Identity(), shift);
   if (by_shift <= tolerance) return Displacement{shift.norm(), shift};
   if (!IsRigid(p.points(), q.points(), tolerance)) return std::nullopt;
-  return Displacement{LargestDistance(a, b).value_or(Largest(p.points(), q.points())), std::nullopt};
+  return Displacement{LargestDistance(a, b).value_or(Largest(p.points(), q.points())),
+                      std::nullopt};
 }
 
 model::Hash128 ShapeHash(const model::Element& element) { return Skeleton(element).Structure(); }

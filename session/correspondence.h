@@ -10,8 +10,8 @@ namespace tranos::session {
 
 // The same shape in another place.
 struct Displacement {
-  double largest_m = 0;               // of corresponding points
-  std::optional<geom::Vec3> by_m;     // of all points alike; nothing if it is turned, too
+  double largest_m = 0;            // of corresponding points
+  std::optional<geom::Vec3> by_m;  // of all points alike; nothing if it is turned, too
 };
 std::optional<Displacement> RigidDisplacement(const model::Element& a, const model::Element& b);
 

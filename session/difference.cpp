@@ -25,7 +25,9 @@ Measures MeasuresOf(const Element& element) {
   return {model::Length(element), model::Area(element), model::Volume(element)};
 }
 
-bool Close(const geom::Vec3& p, const geom::Vec3& q) { return (p - q).cwiseAbs().maxCoeff() < 1e-9; }
+bool Close(const geom::Vec3& p, const geom::Vec3& q) {
+  return (p - q).cwiseAbs().maxCoeff() < 1e-9;
+}
 
 // A point answered, in metres, without what rounding left in the last digits.
 std::string PointText(const Value& value) {
@@ -49,7 +51,9 @@ bool SameAnswer(const Value& a, const Value& b) {
   if (IsPoint(a) && IsPoint(b)) return Close(PointOf(a), PointOf(b));
   return model::Same(a, b);
 }
-std::string AnswerText(const Value& value) { return IsPoint(value) ? PointText(value) : ValueText(value); }
+std::string AnswerText(const Value& value) {
+  return IsPoint(value) ? PointText(value) : ValueText(value);
+}
 
 using Answers = std::vector<std::pair<std::string, Value>>;
 
@@ -59,7 +63,8 @@ Answers Numbered(const Answers& answers) {
   for (const auto& [name, value] : answers) {
     const auto same = [&, prefix = name](const auto& other) { return other.first == prefix; };
     const auto count = std::count_if(answers.begin(), answers.end(), same);
-    const auto before = std::count_if(answers.begin(), answers.begin() + static_cast<std::ptrdiff_t>(out.size()), same);
+    const auto before = std::count_if(
+        answers.begin(), answers.begin() + static_cast<std::ptrdiff_t>(out.size()), same);
     out.emplace_back(count > 1 ? name + " " + std::to_string(before + 1) : name, value);
   }
   return out;
@@ -72,15 +77,19 @@ class Differ {
   Difference Run() {
     for (std::size_t j = 0; j < match_.b.size(); ++j) NoteLater(j);
     for (std::size_t i = 0; i < match_.a.size(); ++i) NoteRemoved(i);
-    std::stable_sort(out_.changes.begin(), out_.changes.end(),
-                     [](const ElementChange& x, const ElementChange& y) { return x.kind < y.kind; });
+    std::stable_sort(
+        out_.changes.begin(), out_.changes.end(),
+        [](const ElementChange& x, const ElementChange& y) { return x.kind < y.kind; });
     return std::move(out_);
   }
 
  private:
   // Whether an element stands for itself: at the top, or in a group that has a counterpart.
-  static bool StandsAlone(const std::vector<Subject>& list, const std::vector<int>& match, const Subject& subject) {
-    return subject.parent < 0 || (match[static_cast<std::size_t>(subject.parent)] >= 0 && StandsAlone(list, match, list[static_cast<std::size_t>(subject.parent)]));
+  static bool StandsAlone(const std::vector<Subject>& list, const std::vector<int>& match,
+                          const Subject& subject) {
+    return subject.parent < 0 ||
+           (match[static_cast<std::size_t>(subject.parent)] >= 0 &&
+            StandsAlone(list, match, list[static_cast<std::size_t>(subject.parent)]));
   }
   void NoteLater(std::size_t j) {
     const Subject& later = match_.b[j];
@@ -98,7 +107,9 @@ class Differ {
     NotePair(earlier, later);
   }
   void NoteRemoved(std::size_t i) {
-    if (match_.b_of_a[i] != ElementMatch::kFree || !StandsAlone(match_.a, match_.b_of_a, match_.a[i])) return;
+    if (match_.b_of_a[i] != ElementMatch::kFree ||
+        !StandsAlone(match_.a, match_.b_of_a, match_.a[i]))
+      return;
     Note(ElementChange::kRemoved, &match_.a[i], nullptr);
   }
 
@@ -109,7 +120,8 @@ class Differ {
     change.name = told.name;
     change.type = model::TypeOf(*told.element);
     change.in_group = told.parent >= 0;
-    if (earlier) change.place_before = PlaceOf(a_, *earlier), change.before = MeasuresOf(*earlier->element);
+    if (earlier)
+      change.place_before = PlaceOf(a_, *earlier), change.before = MeasuresOf(*earlier->element);
     if (later) change.place_after = PlaceOf(b_, *later), change.after = MeasuresOf(*later->element);
     out_.changes.push_back(std::move(change));
     return out_.changes.back();
@@ -135,11 +147,13 @@ class Differ {
     AddParameters(x, y, &change.parameters);
     AddFirings(earlier, later, &change.parameters);
     const auto repeats = [&](std::size_t at) {
-      return std::any_of(change.parameters.begin(), change.parameters.begin() + static_cast<std::ptrdiff_t>(at),
-                         [&](const ParameterChange& other) { return other.name == change.parameters[at].name; });
+      return std::any_of(
+          change.parameters.begin(), change.parameters.begin() + static_cast<std::ptrdiff_t>(at),
+          [&](const ParameterChange& other) { return other.name == change.parameters[at].name; });
     };
     for (std::size_t at = change.parameters.size(); at-- > 0;) {
-      if (repeats(at)) change.parameters.erase(change.parameters.begin() + static_cast<std::ptrdiff_t>(at));
+      if (repeats(at))
+        change.parameters.erase(change.parameters.begin() + static_cast<std::ptrdiff_t>(at));
     }
   }
 
@@ -159,20 +173,26 @@ class Differ {
     note("mt", p.material, q.material);
     note("ev", std::string(model::WordOf(p.evidence)), std::string(model::WordOf(q.evidence)));
     note("source", p.source, q.source);
-    const auto *text_x = std::get_if<model::TextPtr>(&x.geometry), *text_y = std::get_if<model::TextPtr>(&y.geometry);
+    const auto *text_x = std::get_if<model::TextPtr>(&x.geometry),
+               *text_y = std::get_if<model::TextPtr>(&y.geometry);
     if (text_x && text_y) note("text", (*text_x)->content, (*text_y)->content);
-    const auto *group_x = std::get_if<model::GroupPtr>(&x.geometry), *group_y = std::get_if<model::GroupPtr>(&y.geometry);
-    if (group_x && group_y) note("members", std::to_string((*group_x)->members.size()), std::to_string((*group_y)->members.size()));
+    const auto *group_x = std::get_if<model::GroupPtr>(&x.geometry),
+               *group_y = std::get_if<model::GroupPtr>(&y.geometry);
+    if (group_x && group_y)
+      note("members", std::to_string((*group_x)->members.size()),
+           std::to_string((*group_y)->members.size()));
     return out;
   }
 
   // Of placed elements, defaults included.
   static void AddParameters(const Element& x, const Element& y, std::vector<ParameterChange>* out) {
-    const auto *p = std::get_if<model::InstancePtr>(&x.geometry), *q = std::get_if<model::InstancePtr>(&y.geometry);
+    const auto *p = std::get_if<model::InstancePtr>(&x.geometry),
+               *q = std::get_if<model::InstancePtr>(&y.geometry);
     if (!p || !q) return;
     CompareAnswers((*p)->prototype->parameters, (*q)->prototype->parameters, "", out);
   }
-  void AddFirings(const Subject& earlier, const Subject& later, std::vector<ParameterChange>* out) const {
+  void AddFirings(const Subject& earlier, const Subject& later,
+                  std::vector<ParameterChange>* out) const {
     if (earlier.firing == kNoFiring || later.firing == kNoFiring) return;
     Compare(a_.firings[earlier.firing], b_.firings[later.firing], "", out);
     const auto changes = [](const RunRecord& record, const Subject& subject) {
@@ -186,18 +206,22 @@ class Differ {
       Compare(before, after, after.command + " ", out);
     }
   }
-  static void Compare(const Firing& x, const Firing& y, const std::string& prefix, std::vector<ParameterChange>* out) {
+  static void Compare(const Firing& x, const Firing& y, const std::string& prefix,
+                      std::vector<ParameterChange>* out) {
     if (x.command != y.command) return;
     CompareAnswers(Numbered(x.answers), Numbered(y.answers), prefix, out);
   }
-  static void CompareAnswers(const Answers& x, const Answers& y, const std::string& prefix, std::vector<ParameterChange>* out) {
+  static void CompareAnswers(const Answers& x, const Answers& y, const std::string& prefix,
+                             std::vector<ParameterChange>* out) {
     const auto find = [](const Answers& answers, const std::string& name) -> const Value* {
-      const auto found = std::find_if(answers.begin(), answers.end(), [&](const auto& answer) { return answer.first == name; });
+      const auto found = std::find_if(answers.begin(), answers.end(),
+                                      [&](const auto& answer) { return answer.first == name; });
       return found == answers.end() ? nullptr : &found->second;
     };
     const auto note = [&](const std::string& name, const Value* before, const Value* after) {
       if (before && after && SameAnswer(*before, *after)) return;
-      const std::string old_text = before ? AnswerText(*before) : "", new_text = after ? AnswerText(*after) : "";
+      const std::string old_text = before ? AnswerText(*before) : "",
+                        new_text = after ? AnswerText(*after) : "";
       if (old_text != new_text) out->push_back({prefix + name, old_text, new_text});
     };
     for (const auto& [name, value] : x) note(name, &value, find(y, name));

@@ -28,12 +28,12 @@ struct SourcePlace {
 
 struct ElementChange {
   enum Kind { kAdded, kRemoved, kMoved, kChanged } kind = kChanged;
-  std::string name;    // qualified by the groups around it; "" if it has none
-  std::string type;    // of the later one
+  std::string name;       // qualified by the groups around it; "" if it has none
+  std::string type;       // of the later one
   bool in_group = false;  // of a group that is there before and after
   std::optional<SourcePlace> place_before, place_after;
-  std::optional<double> largest_m;   // of corresponding points; of what is moved or changed
-  std::optional<geom::Vec3> by_m;    // moved without being turned
+  std::optional<double> largest_m;  // of corresponding points; of what is moved or changed
+  std::optional<geom::Vec3> by_m;   // moved without being turned
   std::vector<ParameterChange> parameters;
   Measures before, after;
 };

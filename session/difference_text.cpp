@@ -17,7 +17,8 @@ constexpr std::array<std::string_view, 4> kWords = {"added", "removed", "moved",
 // Nine significant digits: what differs by less is told as equal by the hashes.
 std::string Digits(double number) {
   char buffer[64];
-  const auto [end, error] = std::to_chars(buffer, buffer + sizeof buffer, number + 0.0, std::chars_format::general, 9);
+  const auto [end, error] =
+      std::to_chars(buffer, buffer + sizeof buffer, number + 0.0, std::chars_format::general, 9);
   return std::string(buffer, end);
 }
 
@@ -25,13 +26,16 @@ std::string PlaceText(const std::optional<SourcePlace>& place) {
   return place ? interp::Printable(place->path) + ":" + std::to_string(place->line) : "";
 }
 
-std::string Value(const std::string& text) { return text.empty() ? "none" : interp::Printable(text); }
+std::string Value(const std::string& text) {
+  return text.empty() ? "none" : interp::Printable(text);
+}
 
 void AddMeasure(std::string_view name, std::string_view unit, const std::optional<double>& before,
                 const std::optional<double>& after, std::string* out) {
   const std::string x = before ? Digits(*before) : "none", y = after ? Digits(*after) : "none";
   if (x == y) return;
-  *out += (out->empty() ? "" : ", ") + std::string(name) + " " + x + " -> " + y + (after ? " " + std::string(unit) : "");
+  *out += (out->empty() ? "" : ", ") + std::string(name) + " " + x + " -> " + y +
+          (after ? " " + std::string(unit) : "");
 }
 
 std::string Line(const ElementChange& change) {
@@ -47,7 +51,8 @@ std::string Line(const ElementChange& change) {
   }
   std::string what;
   for (const ParameterChange& parameter : change.parameters) {
-    what += (what.empty() ? "" : ", ") + interp::Printable(parameter.name) + " " + Value(parameter.before) + " -> " + Value(parameter.after);
+    what += (what.empty() ? "" : ", ") + interp::Printable(parameter.name) + " " +
+            Value(parameter.before) + " -> " + Value(parameter.after);
   }
   if (change.kind == ElementChange::kMoved || change.kind == ElementChange::kChanged) {
     AddMeasure("length", "m", change.before.length_m, change.after.length_m, &what);
@@ -56,13 +61,16 @@ std::string Line(const ElementChange& change) {
   }
   if (!what.empty()) line += ": " + what;
   const std::string before = PlaceText(change.place_before), after = PlaceText(change.place_after);
-  line += "  [" + before + (before.empty() || after.empty() || before == after ? "" : " -> ") + (before == after ? "" : after) + "]";
+  line += "  [" + before + (before.empty() || after.empty() || before == after ? "" : " -> ") +
+          (before == after ? "" : after) + "]";
   return line + "\n";
 }
 
 void WriteMeasures(const Measures& measures, JsonText* out) {
   out->Open('{');
-  for (const auto& [key, value] : {std::pair{"length", measures.length_m}, {"area", measures.area_m2}, {"volume", measures.volume_m3}}) {
+  for (const auto& [key, value] : {std::pair{"length", measures.length_m},
+                                   {"area", measures.area_m2},
+                                   {"volume", measures.volume_m3}}) {
     out->Key(key);
     value ? out->Number(*value) : out->Null();
   }
@@ -101,9 +109,11 @@ void Write(const ElementChange& change, JsonText* out) {
     out->Close('}');
   }
   out->Close(']').Key("measures_before");
-  change.kind == ElementChange::kAdded ? static_cast<void>(out->Null()) : WriteMeasures(change.before, out);
+  change.kind == ElementChange::kAdded ? static_cast<void>(out->Null())
+                                       : WriteMeasures(change.before, out);
   out->Key("measures_after");
-  change.kind == ElementChange::kRemoved ? static_cast<void>(out->Null()) : WriteMeasures(change.after, out);
+  change.kind == ElementChange::kRemoved ? static_cast<void>(out->Null())
+                                         : WriteMeasures(change.after, out);
   out->Close('}');
 }
 

@@ -116,7 +116,8 @@ void Attributes(const model::Attributes& attributes, JsonText* out) {
   if (attributes.weight != kUsual.weight) out->Key("wt").Integer(attributes.weight);
   if (attributes.level != kUsual.level) out->Key("lv").String(attributes.level);
   if (!attributes.material.empty()) out->Key("mt").String(attributes.material);
-  if (attributes.evidence != kUsual.evidence) out->Key("ev").String(model::WordOf(attributes.evidence));
+  if (attributes.evidence != kUsual.evidence)
+    out->Key("ev").String(model::WordOf(attributes.evidence));
   if (!attributes.source.empty()) out->Key("source").String(attributes.source);
   out->Close('}');
 }

@@ -17,7 +17,9 @@ constexpr std::size_t kMostCells = 1 << 18;  // of a table of alignment
 constexpr std::size_t kFewestPoints = 3;     // of a shape that tells something of what it is
 
 struct HashOfHash {
-  std::size_t operator()(const model::Hash128& hash) const { return static_cast<std::size_t>(hash.low ^ hash.high); }
+  std::size_t operator()(const model::Hash128& hash) const {
+    return static_cast<std::size_t>(hash.low ^ hash.high);
+  }
 };
 
 std::uint64_t HashOfValue(const model::Value& value) {
@@ -26,12 +28,14 @@ std::uint64_t HashOfValue(const model::Value& value) {
   return hasher.Finish().low;
 }
 
-// The elements of a run, groups before their members, and the order in which loops took their turns.
+// The elements of a run, groups before their members, and the order in which loops took their
+// turns.
 class Subjects {
  public:
   Subjects(const RunRecord& record, const StatementTree& tree) : record_(record), tree_(tree) {
     NoteTurns();
-    record.result.outcome.state.model.ForEach([&](const model::ElementPtr& element) { Add(*element, -1); });
+    record.result.outcome.state.model.ForEach(
+        [&](const model::ElementPtr& element) { Add(*element, -1); });
   }
 
   std::vector<Subject> list;
@@ -44,7 +48,8 @@ class Subjects {
     statements_.reserve(record_.firings.size());
     for (const Firing& firing : record_.firings) {
       const bool is_group = firing.command.empty();
-      const std::uint32_t statement = is_group ? tree_.EndingAt(firing.at.begin) : tree_.At(firing.at.begin);
+      const std::uint32_t statement =
+          is_group ? tree_.EndingAt(firing.at.begin) : tree_.At(firing.at.begin);
       statements_.push_back(statement);
       if (firing.turns.empty()) continue;
       const auto loops = tree_.LoopsAround(statement);
@@ -71,7 +76,8 @@ class Subjects {
       subject.statement = statements_[subject.firing];
       const std::size_t loops = tree_.statements[subject.statement].loops;
       const auto& turns = record_.firings[subject.firing].turns;
-      for (std::size_t i = 0; i < std::min(loops, turns.size()); ++i) subject.turns.push_back(HashOfValue(turns[i]));
+      for (std::size_t i = 0; i < std::min(loops, turns.size()); ++i)
+        subject.turns.push_back(HashOfValue(turns[i]));
     }
     const int at = static_cast<int>(list.size());
     list.push_back(std::move(subject));
@@ -82,7 +88,8 @@ class Subjects {
   void NameOne(Subject* subject) const {
     const std::string_view name = subject->element->name_or_empty();
     if (name.empty()) return;
-    if (subject->parent >= 0) subject->name = list[static_cast<std::size_t>(subject->parent)].name + ".";
+    if (subject->parent >= 0)
+      subject->name = list[static_cast<std::size_t>(subject->parent)].name + ".";
     subject->name += name;
   }
 
@@ -91,7 +98,8 @@ class Subjects {
   std::vector<std::uint32_t> statements_;  // by firing
 };
 
-// What one of the side's subjects is aligned by: its statement in the other script, and its turns there.
+// What one of the side's subjects is aligned by: its statement in the other script, and its turns
+// there.
 struct Place {
   std::uint32_t statement = kNoStatement;
   std::vector<std::uint64_t> turns;
@@ -101,17 +109,23 @@ struct Place {
 // Says where in script b a place of script a is.
 class PlaceMap {
  public:
-  PlaceMap(const StatementTree& a, const StatementTree& b, StatementMatch match, const Subjects& x, const Subjects& y)
+  PlaceMap(const StatementTree& a, const StatementTree& b, StatementMatch match, const Subjects& x,
+           const Subjects& y)
       : a_(a), b_(b), match_(std::move(match)) {
     for (const auto& [loop, turns] : x.turns_of_loop) {
       const std::uint32_t other = match_.b_of_a[loop];
       const auto found = y.turns_of_loop.find(other);
-      if (other != kNoStatement && found != y.turns_of_loop.end()) MapTurns(loop, turns, found->second);
+      if (other != kNoStatement && found != y.turns_of_loop.end())
+        MapTurns(loop, turns, found->second);
     }
   }
 
-  bool HasCounterpartA(const Subject& x) const { return match_.b_of_a[x.statement] != kNoStatement; }
-  bool HasCounterpartB(const Subject& y) const { return match_.a_of_b[y.statement] != kNoStatement; }
+  bool HasCounterpartA(const Subject& x) const {
+    return match_.b_of_a[x.statement] != kNoStatement;
+  }
+  bool HasCounterpartB(const Subject& y) const {
+    return match_.a_of_b[y.statement] != kNoStatement;
+  }
 
   Place OfA(const Subject& x) const {
     const std::uint32_t statement = match_.b_of_a[x.statement];
@@ -146,7 +160,8 @@ class PlaceMap {
   }
   // Turns with the same value are the same turn. Where a list has changed in between, turns go by
   // their order; where no value is left, by their number.
-  void MapTurns(std::uint32_t loop, const std::vector<std::uint64_t>& p, const std::vector<std::uint64_t>& q) {
+  void MapTurns(std::uint32_t loop, const std::vector<std::uint64_t>& p,
+                const std::vector<std::uint64_t>& q) {
     const std::unordered_set<std::uint64_t> in_q(q.begin(), q.end());
     bool any_common = false;
     for (const std::uint64_t value : p) {
@@ -202,12 +217,15 @@ class ElementMatcher {
   int& OfB(int j) { return match_.a_of_b[static_cast<std::size_t>(j)]; }
   bool FreeA(int i) { return OfA(i) == ElementMatch::kFree; }
   bool FreeB(int j) { return OfB(j) == ElementMatch::kFree; }
-  static bool IsGroup(const Subject& subject) { return std::holds_alternative<model::GroupPtr>(subject.element->geometry); }
+  static bool IsGroup(const Subject& subject) {
+    return std::holds_alternative<model::GroupPtr>(subject.element->geometry);
+  }
 
   // By parent + 1: the members, so that those at the top come first.
   static void FindMembers(const std::vector<Subject>& list, std::vector<Ids>* members) {
     members->resize(list.size() + 1);
-    for (std::size_t i = 0; i < list.size(); ++i) (*members)[static_cast<std::size_t>(list[i].parent + 1)].push_back(static_cast<int>(i));
+    for (std::size_t i = 0; i < list.size(); ++i)
+      (*members)[static_cast<std::size_t>(list[i].parent + 1)].push_back(static_cast<int>(i));
   }
   static Ids FreeOnes(const std::vector<int>& match) {
     Ids out;
@@ -233,9 +251,12 @@ class ElementMatcher {
       Close(member, members, match);
     }
   }
-  bool AnyMatchedWithin(int group, const std::vector<Ids>& members, const std::vector<int>& match) const {
+  bool AnyMatchedWithin(int group, const std::vector<Ids>& members,
+                        const std::vector<int>& match) const {
     for (const int member : members[static_cast<std::size_t>(group + 1)]) {
-      if (match[static_cast<std::size_t>(member)] != ElementMatch::kFree || AnyMatchedWithin(member, members, match)) return true;
+      if (match[static_cast<std::size_t>(member)] != ElementMatch::kFree ||
+          AnyMatchedWithin(member, members, match))
+        return true;
     }
     return false;
   }
@@ -259,11 +280,13 @@ class ElementMatcher {
   }
   void MatchAlike(const Ids& x, const Ids& y) {
     std::map<Place, Ids> waiting;
-    for (auto j = y.rbegin(); j != y.rend(); ++j) waiting[places_b_[static_cast<std::size_t>(*j)]].push_back(*j);
+    for (auto j = y.rbegin(); j != y.rend(); ++j)
+      waiting[places_b_[static_cast<std::size_t>(*j)]].push_back(*j);
     for (const int i : x) {
       const Place& place = places_a_[static_cast<std::size_t>(i)];
       const auto found = waiting.find(place);
-      if (place.statement == kNoStatement || found == waiting.end() || found->second.empty()) continue;
+      if (place.statement == kNoStatement || found == waiting.end() || found->second.empty())
+        continue;
       PairEqual(i, found->second.back());
       found->second.pop_back();
     }
@@ -277,15 +300,19 @@ class ElementMatcher {
   }
   void PairEqual(int i, int j) {
     // What is in them may have gone to other places before.
-    if (AnyMatchedWithin(i, members_a_, match_.b_of_a) || AnyMatchedWithin(j, members_b_, match_.a_of_b)) return;
+    if (AnyMatchedWithin(i, members_a_, match_.b_of_a) ||
+        AnyMatchedWithin(j, members_b_, match_.a_of_b))
+      return;
     PairWhole(i, j);
   }
 
   // Groups that are each other's: moved as a whole, or their members are matched in turn.
   void MatchGroups(const Ids& x, const Ids& y) {
     Ids groups_a, groups_b;
-    std::copy_if(x.begin(), x.end(), std::back_inserter(groups_a), [&](int i) { return FreeA(i) && IsGroup(A(i)); });
-    std::copy_if(y.begin(), y.end(), std::back_inserter(groups_b), [&](int j) { return FreeB(j) && IsGroup(B(j)); });
+    std::copy_if(x.begin(), x.end(), std::back_inserter(groups_a),
+                 [&](int i) { return FreeA(i) && IsGroup(A(i)); });
+    std::copy_if(y.begin(), y.end(), std::back_inserter(groups_b),
+                 [&](int j) { return FreeB(j) && IsGroup(B(j)); });
     if (groups_a.empty() || groups_b.empty()) return;
     MatchByName(groups_a, groups_b);
     MatchByPlace(groups_a, groups_b);
@@ -296,7 +323,8 @@ class ElementMatcher {
         PairWhole(i, j);
         continue;
       }
-      const Ids &within_a = members_a_[static_cast<std::size_t>(i + 1)], &within_b = members_b_[static_cast<std::size_t>(j + 1)];
+      const Ids &within_a = members_a_[static_cast<std::size_t>(i + 1)],
+                &within_b = members_b_[static_cast<std::size_t>(j + 1)];
       MatchEqual(within_a, within_b);
       MatchGroups(within_a, within_b);
     }
@@ -327,7 +355,8 @@ class ElementMatcher {
       if (found != affected.end()) found->second.second.push_back(j);
     }
     std::erase_if(affected, [](const auto& entry) {
-      return entry.first.statement == kNoStatement || entry.second.first.empty() || entry.second.second.empty();
+      return entry.first.statement == kNoStatement || entry.second.first.empty() ||
+             entry.second.second.empty();
     });
     if (affected.empty()) return;
     std::map<Place, std::pair<Ids, Ids>> whole;
@@ -335,12 +364,14 @@ class ElementMatcher {
       if (affected.contains(places_a_[i])) whole[places_a_[i]].first.push_back(static_cast<int>(i));
     }
     for (std::size_t j = 0; j < match_.b.size(); ++j) {
-      if (affected.contains(places_b_[j])) whole[places_b_[j]].second.push_back(static_cast<int>(j));
+      if (affected.contains(places_b_[j]))
+        whole[places_b_[j]].second.push_back(static_cast<int>(j));
     }
     const std::unordered_set<int> may_a(x.begin(), x.end()), may_b(y.begin(), y.end());
     for (auto& [place, both] : whole) AlignPlace(&both.first, &both.second, may_a, may_b);
   }
-  void AlignPlace(Ids* x, Ids* y, const std::unordered_set<int>& may_a, const std::unordered_set<int>& may_b) {
+  void AlignPlace(Ids* x, Ids* y, const std::unordered_set<int>& may_a,
+                  const std::unordered_set<int>& may_b) {
     std::stable_sort(x->begin(), x->end(), [&](int p, int q) { return A(p).firing < A(q).firing; });
     std::stable_sort(y->begin(), y->end(), [&](int p, int q) { return B(p).firing < B(q).firing; });
     std::unordered_map<int, std::size_t> place_in_y;
@@ -377,13 +408,17 @@ class ElementMatcher {
       for (std::size_t m = y.size(); m-- > 0;) {
         const double likeness = Likeness(A(x[n]), B(y[m]));
         alike[n * y.size() + m] = likeness;
-        best[n * columns + m] = std::max({best[(n + 1) * columns + m], best[n * columns + m + 1], likeness + best[(n + 1) * columns + m + 1]});
+        best[n * columns + m] = std::max({best[(n + 1) * columns + m], best[n * columns + m + 1],
+                                          likeness + best[(n + 1) * columns + m + 1]});
       }
     }
     for (std::size_t n = 0, m = 0; n < x.size() && m < y.size();) {
-      if (best[n * columns + m] <= alike[n * y.size() + m] + best[(n + 1) * columns + m + 1]) Pair(x[n++], y[m++]);
-      else if (best[(n + 1) * columns + m] >= best[n * columns + m + 1]) ++n;
-      else ++m;
+      if (best[n * columns + m] <= alike[n * y.size() + m] + best[(n + 1) * columns + m + 1])
+        Pair(x[n++], y[m++]);
+      else if (best[(n + 1) * columns + m] >= best[n * columns + m + 1])
+        ++n;
+      else
+        ++m;
     }
   }
   // Of two that come from the same statement.
@@ -402,8 +437,10 @@ class ElementMatcher {
   // made by the same command with the same settings.
   void MatchByShape(const Ids& x, const Ids& y) {
     Ids left_a, left_b;
-    std::copy_if(x.begin(), x.end(), std::back_inserter(left_a), [&](int i) { return FreeA(i) && !places_.HasCounterpartA(A(i)); });
-    std::copy_if(y.begin(), y.end(), std::back_inserter(left_b), [&](int j) { return FreeB(j) && !places_.HasCounterpartB(B(j)); });
+    std::copy_if(x.begin(), x.end(), std::back_inserter(left_a),
+                 [&](int i) { return FreeA(i) && !places_.HasCounterpartA(A(i)); });
+    std::copy_if(y.begin(), y.end(), std::back_inserter(left_b),
+                 [&](int j) { return FreeB(j) && !places_.HasCounterpartB(B(j)); });
     if (left_a.empty() || left_b.empty()) return;
     PairByKey(left_a, left_b, [](const Subject& s) { return GeometryHash(*s.element); });
     PairByKey(left_a, left_b, [](const Subject& s) {

@@ -14,12 +14,13 @@ namespace tranos::session {
 // An element of a final model, or a member of a group in it.
 struct Subject {
   const model::Element* element = nullptr;
-  int parent = -1;          // the group, a subject before it
+  int parent = -1;  // the group, a subject before it
   int depth = 0;
-  std::string name = {};    // qualified; "" if it has none
+  std::string name = {};  // qualified; "" if it has none
   std::uint32_t firing = kNoFiring;
   std::uint32_t statement = 0;
-  std::vector<std::uint64_t> turns = {};  // of the loops around the statement, as hashes of their values
+  std::vector<std::uint64_t> turns =
+      {};  // of the loops around the statement, as hashes of their values
 };
 
 struct ElementMatch {

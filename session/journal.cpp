@@ -34,8 +34,12 @@ model::Hash128 LibraryHash(const interp::Sources& sources) {
 
 model::Hash128 HashOfText(std::string_view text) { return model::Hasher().Text(text).Finish(); }
 
-JournalWriter::JournalWriter(RunSettings settings, std::string program, Sink sink, std::size_t chunk)
-    : settings_(std::move(settings)), program_(std::move(program)), sink_(std::move(sink)), chunk_(chunk) {}
+JournalWriter::JournalWriter(RunSettings settings, std::string program, Sink sink,
+                             std::size_t chunk)
+    : settings_(std::move(settings)),
+      program_(std::move(program)),
+      sink_(std::move(sink)),
+      chunk_(chunk) {}
 
 void JournalWriter::Begin(const interp::Sources& sources) {
   begun_ = true;
@@ -53,7 +57,8 @@ void JournalWriter::Begin(const interp::Sources& sources) {
 void JournalWriter::WriteSources(const interp::Sources& sources) {
   out_.Key("sources").Open('[');
   for (const interp::SourceText& file : sources.files) {
-    out_.Open('{').Key("path").String(file.path).Key("hash").String(model::Hex(HashOfText(file.text)));
+    out_.Open('{').Key("path").String(file.path).Key("hash").String(
+        model::Hex(HashOfText(file.text)));
     out_.Key("text").String(file.text).Close('}');
   }
   out_.Close(']');
@@ -74,9 +79,11 @@ void JournalWriter::WritePlace(const interp::Step& step) {
   const interp::Span& span = step.span;
   const interp::SourceText& file = step.sources->files[span.file];
   const auto next_line = [&] {
-    return line_column_.line < file.line_starts.size() ? file.line_starts[line_column_.line] : file.text.size() + 1;
+    return line_column_.line < file.line_starts.size() ? file.line_starts[line_column_.line]
+                                                       : file.text.size() + 1;
   };
-  const bool goes_on = span.file == place_.file && span.begin >= place_.begin && span.begin < next_line();
+  const bool goes_on =
+      span.file == place_.file && span.begin >= place_.begin && span.begin < next_line();
   if (goes_on) {
     for (std::uint32_t at = place_.begin; at < span.begin; ++at) {
       if ((static_cast<unsigned char>(file.text[at]) & 0xC0) != 0x80) ++line_column_.column;
@@ -118,9 +125,11 @@ void JournalWriter::Finish(const interp::ScriptResult& result) {
   out_.Open('{').Key("end").String(result.diagnostics.has_errors() ? "failed" : "ran");
   out_.Key("steps").Integer(steps_).Key("elements").Integer(result.outcome.state.model.live);
   out_.Key("asserts").Open('[');
-  for (const interp::AssertResult& assertion : result.outcome.asserts) out_.Boolean(assertion.passed);
+  for (const interp::AssertResult& assertion : result.outcome.asserts)
+    out_.Boolean(assertion.passed);
   out_.Close(']').Key("model").String(model::Hex(result.outcome.state.model.hash));
-  out_.Key("state").String(model::Hex(model::HashOf(result.outcome.state))).Close('}').text() += '\n';
+  out_.Key("state").String(model::Hex(model::HashOf(result.outcome.state))).Close('}').text() +=
+      '\n';
   Flush();
 }
 

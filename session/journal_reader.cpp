@@ -28,14 +28,17 @@ const std::string* Text(const Json& object, const char* key) {
 bool ReadLimits(const Json& header, interp::Limits* limits) {
   const Json* object = Member(header, "limits", Json::value_t::object);
   if (!object) return false;
-  for (const auto& [key, target] : {std::pair{"steps", &limits->steps}, {"elements", &limits->elements},
+  for (const auto& [key, target] : {std::pair{"steps", &limits->steps},
+                                    {"elements", &limits->elements},
                                     {"memory", &limits->memory}}) {
     const Json* number = Member(*object, key, Json::value_t::number_unsigned);
     if (!number) return false;
     *target = number->get<std::uint64_t>();
   }
   const Json* depth = Member(*object, "depth", Json::value_t::number_unsigned);
-  if (!depth || depth->get<std::uint64_t>() > static_cast<std::uint64_t>(std::numeric_limits<int>::max())) return false;
+  if (!depth ||
+      depth->get<std::uint64_t>() > static_cast<std::uint64_t>(std::numeric_limits<int>::max()))
+    return false;
   limits->depth = depth->get<int>();
   return true;
 }
@@ -44,7 +47,8 @@ bool ReadParameters(const Json& header, RunSettings* settings) {
   const Json* list = Member(header, "parameters", Json::value_t::array);
   if (!list) return false;
   for (const Json& pair : *list) {
-    if (!pair.is_array() || pair.size() != 2 || !pair[0].is_string() || !pair[1].is_string()) return false;
+    if (!pair.is_array() || pair.size() != 2 || !pair[0].is_string() || !pair[1].is_string())
+      return false;
     settings->parameters.emplace_back(pair[0].get<std::string>(), pair[1].get<std::string>());
   }
   return true;
@@ -59,7 +63,8 @@ tl::expected<void, JournalFinding> ReadSources(const Json& header, Journal* jour
     const std::string* hash = text ? Text(source, "hash") : nullptr;
     if (!hash) return Broken(1, "a source needs `path`, `hash` and `text`");
     if (*hash != model::Hex(HashOfText(*text))) {
-      return Broken(1, "the text of `" + interp::Printable(*path) + "` does not have the hash that stands beside it");
+      return Broken(1, "the text of `" + interp::Printable(*path) +
+                           "` does not have the hash that stands beside it");
     }
     journal->sources.emplace_back(*path, *text);
   }
@@ -69,8 +74,10 @@ tl::expected<void, JournalFinding> ReadSources(const Json& header, Journal* jour
 // The last line, which says that the run ended.
 tl::expected<void, JournalFinding> CheckEnd(std::string_view steps) {
   const auto lines = static_cast<std::uint64_t>(std::count(steps.begin(), steps.end(), '\n')) + 1;
-  if (steps.empty() || steps.back() != '\n') return Broken(lines + (steps.empty() ? 0 : 1), "the journal is cut short");
-  const std::size_t before = steps.size() < 2 ? std::string_view::npos : steps.rfind('\n', steps.size() - 2);
+  if (steps.empty() || steps.back() != '\n')
+    return Broken(lines + (steps.empty() ? 0 : 1), "the journal is cut short");
+  const std::size_t before =
+      steps.size() < 2 ? std::string_view::npos : steps.rfind('\n', steps.size() - 2);
   const std::string_view last = steps.substr(before == std::string_view::npos ? 0 : before + 1);
   const Json end = Json::parse(last.begin(), last.end(), nullptr, false);
   if (!end.is_object() || !Text(end, "end")) {
@@ -78,7 +85,8 @@ tl::expected<void, JournalFinding> CheckEnd(std::string_view steps) {
   }
   const Json* count = Member(end, "steps", Json::value_t::number_unsigned);
   if (!count || count->get<std::uint64_t>() != lines - 2) {
-    return Broken(lines, "the journal holds " + std::to_string(lines - 2) + " steps, which is not what its last line says");
+    return Broken(lines, "the journal holds " + std::to_string(lines - 2) +
+                             " steps, which is not what its last line says");
   }
   return {};
 }
@@ -90,7 +98,8 @@ std::string RenderText(const JournalFinding& finding, std::string_view path) {
   std::string out = info.severity == interp::Severity::kError ? "error[" : "warning[";
   out += std::string(info.code) + "]: " + interp::Printable(finding.message) + "\n";
   out += "  --> " + interp::Printable(path) + ":" + std::to_string(finding.line) + "\n";
-  for (const std::string& detail : finding.details) out += "   = " + interp::Printable(detail) + "\n";
+  for (const std::string& detail : finding.details)
+    out += "   = " + interp::Printable(detail) + "\n";
   return out;
 }
 
@@ -102,14 +111,16 @@ tl::expected<Journal, JournalFinding> ReadJournal(std::string_view text) {
   const Json header = Json::parse(first.begin(), first.end(), nullptr, false);
   if (!header.is_object() || !header.contains("tranos_journal")) {
     const bool is_cut = IsJournal(text);
-    return tl::make_unexpected(JournalFinding{is_cut ? Code::kBrokenJournal : Code::kNotAJournal, 1,
-                                              is_cut ? "the header is cut short or malformed" : "the file is no journal"});
+    return tl::make_unexpected(
+        JournalFinding{is_cut ? Code::kBrokenJournal : Code::kNotAJournal, 1,
+                       is_cut ? "the header is cut short or malformed" : "the file is no journal"});
   }
   const Json* version = Member(header, "tranos_journal", Json::value_t::number_unsigned);
   if (!version) return Broken(1, "`tranos_journal` is to be the number of the format's version");
   if (*version != kJournalVersion) {
     return tl::make_unexpected(JournalFinding{Code::kJournalVersion, 1,
-                                              "the journal's version is " + version->dump() + "; this program reads version " +
+                                              "the journal's version is " + version->dump() +
+                                                  "; this program reads version " +
                                                   std::to_string(kJournalVersion)});
   }
   Journal journal;
@@ -121,20 +132,24 @@ tl::expected<Journal, JournalFinding> ReadJournal(std::string_view text) {
   }
   journal.program = *program;
   journal.settings.hypothesis = *hypothesis;
-  if (auto sources = ReadSources(header, &journal); !sources) return tl::make_unexpected(sources.error());
-  journal.steps = line_end == std::string_view::npos ? std::string_view() : text.substr(line_end + 1);
+  if (auto sources = ReadSources(header, &journal); !sources)
+    return tl::make_unexpected(sources.error());
+  journal.steps =
+      line_end == std::string_view::npos ? std::string_view() : text.substr(line_end + 1);
   if (auto end = CheckEnd(journal.steps); !end) return tl::make_unexpected(end.error());
   return journal;
 }
 
-interp::ScriptResult RunJournal(const Journal& journal, std::function<void(const interp::Step&)> on_step,
+interp::ScriptResult RunJournal(const Journal& journal,
+                                std::function<void(const interp::Step&)> on_step,
                                 std::function<void(std::string_view)> print) {
   interp::Host host;
   host.read = [&](std::string_view path) -> tl::expected<std::string, interp::HostError> {
     for (std::size_t i = 1; i < journal.sources.size(); ++i) {
       if (journal.sources[i].first == path) return journal.sources[i].second;
     }
-    return tl::make_unexpected(interp::HostError{interp::HostError::kMissing, "not in the journal"});
+    return tl::make_unexpected(
+        interp::HostError{interp::HostError::kMissing, "not in the journal"});
   };
   host.print = std::move(print);
   const RunSettings& settings = journal.settings;

@@ -26,7 +26,7 @@ std::string RenderText(const JournalFinding& finding, std::string_view path);
 
 struct Journal {
   RunSettings settings;
-  std::string program;  // the version that wrote it
+  std::string program;                                       // the version that wrote it
   std::vector<std::pair<std::string, std::string>> sources;  // path, text; the script first
   std::string_view steps;  // of the journal's text: the lines after the first, the last one too
 };
@@ -37,7 +37,8 @@ bool IsJournal(std::string_view text);
 tl::expected<Journal, JournalFinding> ReadJournal(std::string_view text);
 // Runs the script that the journal holds. It reads nothing but the files that are in the journal;
 // what it prints goes to `print`, which may be null.
-interp::ScriptResult RunJournal(const Journal& journal, std::function<void(const interp::Step&)> on_step,
+interp::ScriptResult RunJournal(const Journal& journal,
+                                std::function<void(const interp::Step&)> on_step,
                                 std::function<void(std::string_view)> print);
 
 }  // namespace tranos::session

@@ -21,7 +21,12 @@ double OnGrid(double number, double steps) {
 std::size_t SequenceAt(std::string_view text, std::size_t at) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
   const unsigned lead = byte(at);
-  const std::size_t length = lead < 0x80 ? 1 : lead < 0xC2 ? 0 : lead < 0xE0 ? 2 : lead < 0xF0 ? 3 : lead < 0xF5 ? 4 : 0;
+  const std::size_t length = lead < 0x80   ? 1
+                             : lead < 0xC2 ? 0
+                             : lead < 0xE0 ? 2
+                             : lead < 0xF0 ? 3
+                             : lead < 0xF5 ? 4
+                                           : 0;
   if (length == 0 || at + length > text.size()) return 0;
   for (std::size_t i = 1; i < length; ++i) {
     if ((byte(at + i) & 0xC0) != 0x80) return 0;
@@ -36,11 +41,20 @@ std::size_t SequenceAt(std::string_view text, std::size_t at) {
 void AppendEscaped(char c, std::string* out) {
   static constexpr char kHex[] = "0123456789abcdef";
   switch (c) {
-    case '"': *out += "\\\""; return;
-    case '\\': *out += "\\\\"; return;
-    case '\n': *out += "\\n"; return;
-    case '\t': *out += "\\t"; return;
-    default: break;
+    case '"':
+      *out += "\\\"";
+      return;
+    case '\\':
+      *out += "\\\\";
+      return;
+    case '\n':
+      *out += "\\n";
+      return;
+    case '\t':
+      *out += "\\t";
+      return;
+    default:
+      break;
   }
   const auto code = static_cast<unsigned char>(c);
   *out += "\\u00";
@@ -91,8 +105,10 @@ JsonText& JsonText::String(std::string_view text) {
       continue;
     }
     text_.append(text, plain, at - plain);
-    if (byte < 0x80) AppendEscaped(text[at], &text_);
-    else text_ += "\xEF\xBF\xBD";
+    if (byte < 0x80)
+      AppendEscaped(text[at], &text_);
+    else
+      text_ += "\xEF\xBF\xBD";
     plain = ++at;
   }
   text_.append(text, plain, text.size() - plain);

@@ -14,7 +14,8 @@ void OriginRecorder::Add(const interp::Step& step) {
   if (step.command.empty() && edit.added.empty()) return;  // `as`: a name is no change of origin
   const auto firing = static_cast<std::uint32_t>(record_->firings.size());
   const bool by_ending = step.key_in.empty();
-  record_->firings.push_back({by_ending ? step.statement : step.span, step.command, step.turn_values, step.answers});
+  record_->firings.push_back(
+      {by_ending ? step.statement : step.span, step.command, step.turn_values, step.answers});
   for (std::size_t i = 0; i < step.ids.size(); ++i) {
     Origin& origin = OriginOf(step.ids[i]);
     if (i < edit.added.size()) {

@@ -13,8 +13,9 @@ namespace tranos::session {
 
 // A command that fired and changed the model.
 struct Firing {
-  interp::Span at;  // the key-in; of a command that fired as it ended, the command; of a group, its end
-  std::string command;  // its words; "" for a group
+  interp::Span
+      at;  // the key-in; of a command that fired as it ended, the command; of a group, its end
+  std::string command;              // its words; "" for a group
   std::vector<model::Value> turns;  // what the variable of each loop around it stood for
   std::vector<std::pair<std::string, model::Value>> answers;
 };
@@ -22,8 +23,8 @@ struct Firing {
 inline constexpr std::uint32_t kNoFiring = 0xffffffff;
 
 struct Origin {
-  std::uint32_t firing = kNoFiring;      // that made it
-  std::uint32_t index = 0;               // among what it made
+  std::uint32_t firing = kNoFiring;         // that made it
+  std::uint32_t index = 0;                  // among what it made
   std::vector<std::uint32_t> changes = {};  // firings that changed it afterwards
 };
 

@@ -24,7 +24,8 @@ std::string Number(double value) { return nlohmann::json(value).dump(); }
 // Holds the lines of a replay against those recorded, as they come.
 class Comparer {
  public:
-  Comparer(std::string_view recorded, ReplayReport* report) : recorded_(recorded), report_(report) {}
+  Comparer(std::string_view recorded, ReplayReport* report)
+      : recorded_(recorded), report_(report) {}
 
   // Whole lines.
   void Take(std::string_view found) {
@@ -40,7 +41,9 @@ class Comparer {
   }
   void Finish() {
     if (stopped_) return;
-    if (!recorded_.empty()) Stop(ReplayReport::kDiffers, Code::kReplayDiffers, "the replay ends here, and the journal goes on", {});
+    if (!recorded_.empty())
+      Stop(ReplayReport::kDiffers, Code::kReplayDiffers,
+           "the replay ends here, and the journal goes on", {});
     report_->steps = line_ - 2;
   }
 
@@ -56,10 +59,12 @@ class Comparer {
       return Stop(ReplayReport::kBroken, Code::kBrokenJournal, "the line is not a step", {});
     }
     if (!difference.differing.empty()) return StopDiffering(found, std::move(difference.differing));
-    const bool explained = difference.close > 0 || report_->verdict == ReplayReport::kWithinTolerance;
+    const bool explained =
+        difference.close > 0 || report_->verdict == ReplayReport::kWithinTolerance;
     if (!explained) {
       std::vector<std::string> details;
-      for (const std::string& hash : difference.hashes) details.push_back(hash + ": the hash differs, and nothing that is recorded explains it");
+      for (const std::string& hash : difference.hashes)
+        details.push_back(hash + ": the hash differs, and nothing that is recorded explains it");
       return StopDiffering(found, std::move(details));
     }
     if (report_->verdict == ReplayReport::kEqual) NoteClose(difference);
@@ -67,7 +72,9 @@ class Comparer {
   }
   void NoteClose(const LineDifference& difference) {
     report_->verdict = ReplayReport::kWithinTolerance;
-    report_->findings.push_back({Code::kWithinTolerance, line_, "equal within tolerance from here on: numbers differ by at most " + Number(difference.largest_close) + " in this step"});
+    report_->findings.push_back({Code::kWithinTolerance, line_,
+                                 "equal within tolerance from here on: numbers differ by at most " +
+                                     Number(difference.largest_close) + " in this step"});
   }
   void StopDiffering(std::string_view found, std::vector<std::string> details) {
     const auto step = nlohmann::json::parse(found.begin(), found.end(), nullptr, false);
@@ -75,11 +82,13 @@ class Comparer {
     if (step.is_object() && step.contains("n")) {
       const std::string key_in = step.value("key_in", "");
       where = "step " + step["n"].dump() + " differs" + (key_in.empty() ? "" : ": " + key_in);
-      details.push_back("it stands at line " + step["line"].dump() + ", column " + step["column"].dump() + " of source " + step["file"].dump());
+      details.push_back("it stands at line " + step["line"].dump() + ", column " +
+                        step["column"].dump() + " of source " + step["file"].dump());
     }
     Stop(ReplayReport::kDiffers, Code::kReplayDiffers, std::move(where), std::move(details));
   }
-  void Stop(ReplayReport::Verdict verdict, Code code, std::string message, std::vector<std::string> details) {
+  void Stop(ReplayReport::Verdict verdict, Code code, std::string message,
+            std::vector<std::string> details) {
     stopped_ = true;
     report_->verdict = verdict;
     report_->steps = line_ - 2;

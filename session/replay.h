@@ -10,8 +10,9 @@ namespace tranos::session {
 
 struct ReplayReport {
   enum Verdict { kEqual, kWithinTolerance, kDiffers, kBroken } verdict = kEqual;
-  std::uint64_t steps = 0;                // equal ones, or equal within tolerance
-  std::vector<JournalFinding> findings;   // the first difference within tolerance, and what stopped it
+  std::uint64_t steps = 0;  // equal ones, or equal within tolerance
+  std::vector<JournalFinding>
+      findings;  // the first difference within tolerance, and what stopped it
 };
 ReplayReport Replay(const Journal& journal);
 

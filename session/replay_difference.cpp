@@ -25,7 +25,8 @@ std::string Shown(const Json& value) {
 }
 
 bool IsHashKey(std::string_view key) {
-  return key == "hash" || key == "model" || key == "state" || key == "prototype" || key == "library";
+  return key == "hash" || key == "model" || key == "state" || key == "prototype" ||
+         key == "library";
 }
 
 class Comparison {
@@ -35,7 +36,8 @@ class Comparison {
   void Compare(const Json& recorded, const Json& found, const std::string& path) {
     if (recorded == found) return;
     if (recorded.is_number() && found.is_number()) {
-      return Number(recorded.get<double>(), found.get<double>(), path, recorded.is_number_float() || found.is_number_float());
+      return Number(recorded.get<double>(), found.get<double>(), path,
+                    recorded.is_number_float() || found.is_number_float());
     }
     if (recorded.type() != found.type()) return Tell(path, recorded, found);
     if (recorded.is_object()) return Objects(recorded, found, path);
@@ -56,8 +58,8 @@ class Comparison {
     const double by = std::abs(recorded - found);
     if (may_be_close && by <= kReplayTolerance_m) return Close(by);
     if (out_->differing.size() >= kMostTold) return;
-    out_->differing.push_back(path + ": recorded " + Json(recorded).dump() + ", now " + Json(found).dump() +
-                              ", by " + Json(found - recorded).dump());
+    out_->differing.push_back(path + ": recorded " + Json(recorded).dump() + ", now " +
+                              Json(found).dump() + ", by " + Json(found - recorded).dump());
   }
   void Close(double by) {
     ++out_->close;
@@ -81,7 +83,8 @@ class Comparison {
   }
   void Arrays(const Json& recorded, const Json& found, const std::string& path) {
     if (recorded.size() != found.size()) {
-      return Tell(path, std::to_string(recorded.size()) + " items", std::to_string(found.size()) + " items");
+      return Tell(path, std::to_string(recorded.size()) + " items",
+                  std::to_string(found.size()) + " items");
     }
     for (std::size_t i = 0; i < recorded.size(); ++i) {
       Compare(recorded[i], found[i], path + "[" + std::to_string(i) + "]");

@@ -19,15 +19,18 @@ constexpr double kAlikeElsewhere = 0.6;
 Pairs Ascending(const Pairs& pairs) {
   std::vector<std::size_t> tails, before(pairs.size(), pairs.size());
   for (std::size_t i = 0; i < pairs.size(); ++i) {
-    const auto place = std::lower_bound(tails.begin(), tails.end(), pairs[i].second, [&](std::size_t tail, std::uint32_t value) {
-      return pairs[tail].second < value;
-    });
+    const auto place = std::lower_bound(
+        tails.begin(), tails.end(), pairs[i].second,
+        [&](std::size_t tail, std::uint32_t value) { return pairs[tail].second < value; });
     if (place != tails.begin()) before[i] = *std::prev(place);
-    if (place == tails.end()) tails.push_back(i);
-    else *place = i;
+    if (place == tails.end())
+      tails.push_back(i);
+    else
+      *place = i;
   }
   Pairs out;
-  for (std::size_t i = tails.empty() ? pairs.size() : tails.back(); i < pairs.size(); i = before[i]) out.push_back(pairs[i]);
+  for (std::size_t i = tails.empty() ? pairs.size() : tails.back(); i < pairs.size(); i = before[i])
+    out.push_back(pairs[i]);
   std::reverse(out.begin(), out.end());
   return out;
 }
@@ -35,7 +38,8 @@ Pairs Ascending(const Pairs& pairs) {
 // Common subsequences: equal ends, then anchors that are unique on both sides, then a table.
 class Aligner {
  public:
-  Aligner(const std::vector<std::uint64_t>& a, const std::vector<std::uint64_t>& b) : a_(a), b_(b) {}
+  Aligner(const std::vector<std::uint64_t>& a, const std::vector<std::uint64_t>& b)
+      : a_(a), b_(b) {}
 
   void Align(std::size_t a0, std::size_t a1, std::size_t b0, std::size_t b1) {
     while (a0 < a1 && b0 < b1 && a_[a0] == b_[b0]) Pair(a0++, b0++);
@@ -75,23 +79,30 @@ class Aligner {
     Pairs out;
     for (std::size_t i = a0; i < a1; ++i) {
       const Seen& entry = seen[a_[i]];
-      if (entry.count_a == 1 && entry.count_b == 1) out.emplace_back(static_cast<std::uint32_t>(i), entry.at_b);
+      if (entry.count_a == 1 && entry.count_b == 1)
+        out.emplace_back(static_cast<std::uint32_t>(i), entry.at_b);
     }
     return out;
   }
   void Table(std::size_t a0, std::size_t a1, std::size_t b0, std::size_t b1) {
     const std::size_t rows = a1 - a0, columns = b1 - b0;
     std::vector<std::uint32_t> best((rows + 1) * (columns + 1), 0);
-    const auto at = [&](std::size_t i, std::size_t j) -> std::uint32_t& { return best[i * (columns + 1) + j]; };
+    const auto at = [&](std::size_t i, std::size_t j) -> std::uint32_t& {
+      return best[i * (columns + 1) + j];
+    };
     for (std::size_t i = rows; i-- > 0;) {
       for (std::size_t j = columns; j-- > 0;) {
-        at(i, j) = a_[a0 + i] == b_[b0 + j] ? at(i + 1, j + 1) + 1 : std::max(at(i + 1, j), at(i, j + 1));
+        at(i, j) =
+            a_[a0 + i] == b_[b0 + j] ? at(i + 1, j + 1) + 1 : std::max(at(i + 1, j), at(i, j + 1));
       }
     }
     for (std::size_t i = 0, j = 0; i < rows && j < columns;) {
-      if (a_[a0 + i] == b_[b0 + j]) Pair(a0 + i++, b0 + j++);
-      else if (at(i + 1, j) >= at(i, j + 1)) ++i;
-      else ++j;
+      if (a_[a0 + i] == b_[b0 + j])
+        Pair(a0 + i++, b0 + j++);
+      else if (at(i + 1, j) >= at(i, j + 1))
+        ++i;
+      else
+        ++j;
     }
   }
 
@@ -111,9 +122,11 @@ class StatementMatcher {
     MatchBlocks(0, 0);
     MatchEqualAnywhere();
     MatchContainersByContent();
-    // Blocks that were matched by now, in order: their changed statements between the same neighbours.
+    // Blocks that were matched by now, in order: their changed statements between the same
+    // neighbours.
     for (std::uint32_t i = 0; i < a_.statements.size(); ++i) {
-      if (match_.b_of_a[i] != kNoStatement && !a_.statements[i].children.empty()) MatchAlikeWithin(i, match_.b_of_a[i]);
+      if (match_.b_of_a[i] != kNoStatement && !a_.statements[i].children.empty())
+        MatchAlikeWithin(i, match_.b_of_a[i]);
     }
     MatchAlikeAnywhere();
     return std::move(match_);
@@ -182,7 +195,9 @@ class StatementMatcher {
         if (likeness >= kAlikeBetweenNeighbours) candidates.push_back({likeness, i, j});
       }
     }
-    std::stable_sort(candidates.begin(), candidates.end(), [](const Candidate& p, const Candidate& q) { return p.likeness > q.likeness; });
+    std::stable_sort(
+        candidates.begin(), candidates.end(),
+        [](const Candidate& p, const Candidate& q) { return p.likeness > q.likeness; });
     for (const Candidate& candidate : candidates) {
       if (FreeA(candidate.i) && FreeB(candidate.j)) MatchBlocks(candidate.i, candidate.j);
     }
@@ -230,12 +245,16 @@ class StatementMatcher {
     std::sort(q.begin(), q.end());
     std::size_t common = 0;
     for (std::size_t i = 0, j = 0; i < p.size() && j < q.size();) {
-      if (p[i] == q[j]) ++common, ++i, ++j;
-      else if (p[i] < q[j]) ++i;
-      else ++j;
+      if (p[i] == q[j])
+        ++common, ++i, ++j;
+      else if (p[i] < q[j])
+        ++i;
+      else
+        ++j;
     }
     // The head is common; two statements of a head alone are the same.
-    return (1.0 + 2.0 * static_cast<double>(common)) / (1.0 + static_cast<double>(p.size() + q.size()));
+    return (1.0 + 2.0 * static_cast<double>(common)) /
+           (1.0 + static_cast<double>(p.size() + q.size()));
   }
 
   void MatchAlikeWithin(std::uint32_t i, std::uint32_t j) {
@@ -249,7 +268,8 @@ class StatementMatcher {
       if (found != place_in_y.end()) matched.emplace_back(n, found->second);
     }
     Pairs anchors = Ascending(matched);
-    anchors.emplace_back(static_cast<std::uint32_t>(x.size()), static_cast<std::uint32_t>(y.size()));
+    anchors.emplace_back(static_cast<std::uint32_t>(x.size()),
+                         static_cast<std::uint32_t>(y.size()));
     std::uint32_t n = 0, m = 0;
     for (const auto& [to_n, to_m] : anchors) {
       Ids gap_x, gap_y;
@@ -289,8 +309,10 @@ class StatementMatcher {
     }
   }
   void PairChanged(std::uint32_t i, std::uint32_t j) {
-    if (IsBlock(A(i))) MatchBlocks(i, j);
-    else Pair(i, j);
+    if (IsBlock(A(i)))
+      MatchBlocks(i, j);
+    else
+      Pair(i, j);
   }
 
   void MatchAlikeAnywhere() {
@@ -314,7 +336,9 @@ class StatementMatcher {
         if (likeness >= kAlikeElsewhere) candidates.push_back({likeness, i, j});
       }
     }
-    std::stable_sort(candidates.begin(), candidates.end(), [](const Candidate& p, const Candidate& q) { return p.likeness > q.likeness; });
+    std::stable_sort(
+        candidates.begin(), candidates.end(),
+        [](const Candidate& p, const Candidate& q) { return p.likeness > q.likeness; });
     for (const Candidate& candidate : candidates) {
       if (FreeA(candidate.i) && FreeB(candidate.j)) PairChanged(candidate.i, candidate.j);
     }
@@ -333,6 +357,8 @@ Pairs CommonSubsequence(const std::vector<std::uint64_t>& a, const std::vector<s
   return aligner.Take();
 }
 
-StatementMatch MatchStatements(const StatementTree& a, const StatementTree& b) { return StatementMatcher(a, b).Run(); }
+StatementMatch MatchStatements(const StatementTree& a, const StatementTree& b) {
+  return StatementMatcher(a, b).Run();
+}
 
 }  // namespace tranos::session

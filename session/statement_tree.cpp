@@ -55,7 +55,8 @@ class TreeBuilder {
   }
 
  private:
-  std::uint32_t Add(Statement::Kind kind, std::uint32_t parent, const interp::Node& node, std::uint64_t head) {
+  std::uint32_t Add(Statement::Kind kind, std::uint32_t parent, const interp::Node& node,
+                    std::uint64_t head) {
     const auto id = static_cast<std::uint32_t>(out_.statements.size());
     Statement statement;
     statement.kind = kind;
@@ -75,19 +76,24 @@ class TreeBuilder {
   void FinishHash(Statement& statement) {
     std::uint64_t hash = statement.head;
     for (const std::uint64_t item : statement.items) hash = Mix(hash, item);
-    for (const std::uint32_t child : statement.children) hash = Mix(hash, out_.statements[child].hash);
+    for (const std::uint32_t child : statement.children)
+      hash = Mix(hash, out_.statements[child].hash);
     statement.hash = hash;
   }
 
   // The tokens in these bytes as one number; newlines say nothing.
-  std::uint64_t HashTokens(std::uint32_t begin, std::uint32_t end, std::vector<std::uint64_t>* each = nullptr) const {
-    auto at = std::lower_bound(tokens_.begin(), tokens_.end(), begin,
-                               [](const interp::Token& token, std::uint32_t place) { return token.begin < place; });
+  std::uint64_t HashTokens(std::uint32_t begin, std::uint32_t end,
+                           std::vector<std::uint64_t>* each = nullptr) const {
+    auto at = std::lower_bound(
+        tokens_.begin(), tokens_.end(), begin,
+        [](const interp::Token& token, std::uint32_t place) { return token.begin < place; });
     std::uint64_t hash = 0;
     for (; at != tokens_.end() && at->begin < end && at->kind != TokenKind::kEnd; ++at) {
       if (at->kind == TokenKind::kNewline) continue;
-      const std::string_view text = std::string_view(source_.text).substr(at->begin, at->end - at->begin);
-      const std::uint64_t token = Mix(static_cast<std::uint64_t>(at->kind), HashText(text, at->keyword != interp::Keyword::kNone));
+      const std::string_view text =
+          std::string_view(source_.text).substr(at->begin, at->end - at->begin);
+      const std::uint64_t token = Mix(static_cast<std::uint64_t>(at->kind),
+                                      HashText(text, at->keyword != interp::Keyword::kNone));
       hash = Mix(hash, token);
       if (each) each->push_back(token);
     }
@@ -101,18 +107,30 @@ class TreeBuilder {
     std::uint32_t active = kNoStatement;
     for (NodeId id = tree_[block].first_child; id != interp::kNoNode; id = tree_[id].next) {
       switch (tree_[id].kind) {
-        case NodeKind::kCommand: active = Command(id, parent); break;
-        case NodeKind::kKeyIns: Arguments(tree_[id].first_child, parent, &active); break;
+        case NodeKind::kCommand:
+          active = Command(id, parent);
+          break;
+        case NodeKind::kKeyIns:
+          Arguments(tree_[id].first_child, parent, &active);
+          break;
         case NodeKind::kForCount:
-        case NodeKind::kForEach: Block(Statement::kLoop, id, parent); break;
-        case NodeKind::kIf: If(id, parent); break;
+        case NodeKind::kForEach:
+          Block(Statement::kLoop, id, parent);
+          break;
+        case NodeKind::kIf:
+          If(id, parent);
+          break;
         case NodeKind::kBlock:
         case NodeKind::kGroup:
-        case NodeKind::kHypothesis: Block(Statement::kBlock, id, parent); break;
+        case NodeKind::kHypothesis:
+          Block(Statement::kBlock, id, parent);
+          break;
         default: {
           const auto kind = static_cast<std::uint64_t>(tree_[id].kind);
           const NodeId name = tree_[id].first_child;
-          const std::uint32_t made = Add(Statement::kOther, parent, tree_[id], Mix(kind, name == interp::kNoNode ? 0 : HashText(TextOf(name), false)));
+          const std::uint32_t made =
+              Add(Statement::kOther, parent, tree_[id],
+                  Mix(kind, name == interp::kNoNode ? 0 : HashText(TextOf(name), false)));
           HashTokens(tree_[id].begin, tree_[id].end, &out_.statements[made].items);
         }
       }
@@ -139,12 +157,14 @@ class TreeBuilder {
         const std::uint64_t head = HashText(key, false);
         if (interp::FindSetting(key)) {
           const std::uint32_t setting = Add(Statement::kSetting, parent, node, head);
-          out_.statements[setting].items.push_back(HashTokens(tree_[node.first_child].end, node.end));
+          out_.statements[setting].items.push_back(
+              HashTokens(tree_[node.first_child].end, node.end));
           continue;
         }
         Answer(node, parent, active);
         // The key counts apart from its value, so that a changed value leaves some likeness.
-        out_.statements[*active].items.push_back(Mix(head, HashTokens(tree_[node.first_child].end, node.end)));
+        out_.statements[*active].items.push_back(
+            Mix(head, HashTokens(tree_[node.first_child].end, node.end)));
         out_.statements[*active].items.push_back(head);
         continue;
       }
@@ -161,7 +181,8 @@ class TreeBuilder {
     const interp::Node& node = tree_[id];
     const std::uint32_t made = Add(kind, parent, node, static_cast<std::uint64_t>(node.kind));
     NodeId block = node.kind == NodeKind::kBlock ? id : interp::kNoNode;
-    for (NodeId child = node.first_child; block == interp::kNoNode && child != interp::kNoNode; child = tree_[child].next) {
+    for (NodeId child = node.first_child; block == interp::kNoNode && child != interp::kNoNode;
+         child = tree_[child].next) {
       if (tree_[child].kind == NodeKind::kBlock) block = child;
     }
     if (block == interp::kNoNode) return;
@@ -173,11 +194,13 @@ class TreeBuilder {
   // The condition, then a block for each branch.
   void If(NodeId id, std::uint32_t parent) {
     const interp::Node& node = tree_[id];
-    const std::uint32_t made = Add(Statement::kBlock, parent, node, static_cast<std::uint64_t>(node.kind));
+    const std::uint32_t made =
+        Add(Statement::kBlock, parent, node, static_cast<std::uint64_t>(node.kind));
     const NodeId condition = node.first_child;
     if (condition == interp::kNoNode) return;
     HashTokens(tree_[condition].begin, tree_[condition].end, &out_.statements[made].items);
-    for (NodeId branch = tree_[condition].next; branch != interp::kNoNode; branch = tree_[branch].next) {
+    for (NodeId branch = tree_[condition].next; branch != interp::kNoNode;
+         branch = tree_[branch].next) {
       if (tree_[branch].kind == NodeKind::kIf) If(branch, made);
       if (tree_[branch].kind == NodeKind::kBlock) Block(Statement::kBlock, branch, made);
     }
@@ -192,7 +215,8 @@ class TreeBuilder {
 }  // namespace
 
 std::uint32_t StatementTree::At(std::uint32_t offset) const {
-  const auto after = std::upper_bound(places.begin(), places.end(), std::pair{offset, kNoStatement});
+  const auto after =
+      std::upper_bound(places.begin(), places.end(), std::pair{offset, kNoStatement});
   return after == places.begin() ? 0 : std::prev(after)->second;
 }
 
@@ -203,7 +227,8 @@ std::uint32_t StatementTree::EndingAt(std::uint32_t brace) const {
 
 std::vector<std::uint32_t> StatementTree::LoopsAround(std::uint32_t statement) const {
   std::vector<std::uint32_t> loops;
-  for (std::uint32_t at = statements[statement].parent; at != kNoStatement; at = statements[at].parent) {
+  for (std::uint32_t at = statements[statement].parent; at != kNoStatement;
+       at = statements[at].parent) {
     if (statements[at].kind == Statement::kLoop) loops.push_back(at);
   }
   std::reverse(loops.begin(), loops.end());

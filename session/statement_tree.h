@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A script's statements as a tree that can be compared with another's: layout, comments and the choice
-// of separators are gone, and the key-ins that answer a command are part of it.
+// A script's statements as a tree that can be compared with another's: layout, comments and the
+// choice of separators are gone, and the key-ins that answer a command are part of it.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,15 @@ namespace tranos::session {
 inline constexpr std::uint32_t kNoStatement = 0xffffffff;
 
 struct Statement {
-  enum Kind : std::uint8_t { kScript, kCommand, kAnswers, kSetting, kLoop, kBlock, kOther } kind = kOther;
+  enum Kind : std::uint8_t {
+    kScript,
+    kCommand,
+    kAnswers,
+    kSetting,
+    kLoop,
+    kBlock,
+    kOther
+  } kind = kOther;
   std::uint64_t head = 0;            // kind and words: what a changed statement keeps
   std::uint64_t hash = 0;            // all of it, with the statements within
   std::vector<std::uint64_t> items;  // its parts, in order
@@ -34,8 +42,9 @@ struct StatementTree {
   // The loops around the statement, outermost first.
   std::vector<std::uint32_t> LoopsAround(std::uint32_t statement) const;
 
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> places;  // begin of each key-in, its statement; sorted
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> ends;    // end of each block's brace; sorted
+  std::vector<std::pair<std::uint32_t, std::uint32_t>>
+      places;  // begin of each key-in, its statement; sorted
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> ends;  // end of each block's brace; sorted
 };
 
 // Of the script that was run: the first of the sources, which parses.
