@@ -67,13 +67,30 @@ double BareFactor(Dimension dimension, const Unit& unit) {
   return 1;
 }
 
+Unit WithShares(Unit unit) {
+  // 0.3048 is 3048/10000: both are exact, and so is the product with a short decimal's numerator.
+  for (double shares = 1; shares <= 1e15; shares *= 10) {
+    const double whole = std::round(unit.factor * shares);
+    if (whole < 1 || std::abs(whole / shares - unit.factor) > 1e-15 * unit.factor) continue;
+    unit.shares = shares;
+    break;
+  }
+  return unit;
+}
+
+double InSi(double number, const Unit& unit) {
+  if (unit.shares == 0) return number * unit.factor;
+  return number * std::round(unit.factor * unit.shares) / unit.shares;
+}
+
 Value ReadBare(const Value& number, Dimension dimension, const Unit& unit) {
   if (!number.dimension().plain()) return number;
   if (dimension != model::kLength && dimension != model::kAngle && dimension != model::kPixel) {
     return number;
   }
   const double factor = BareFactor(dimension, unit);
-  return Combine(number.number() * factor, dimension, {{&number, factor}});
+  const double value = dimension == model::kLength ? InSi(number.number(), unit) : number.number() * factor;
+  return Combine(value, dimension, {{&number, factor}});
 }
 
 bool Align(Value* left, Value* right, const Unit& unit) {

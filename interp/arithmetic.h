@@ -36,6 +36,10 @@ double Sigma(const model::Value& number, const SourceList& sources);
 model::Value Chain(const model::Value& x, double value, double derivative, model::Dimension dimension);
 // Brings two numbers to one dimension as `+` does; true where that is possible.
 bool Align(model::Value* left, model::Value* right, const Unit& unit);
+// The unit with its `shares`, so that InSi rounds but once.
+Unit WithShares(Unit unit);
+// A number of units in SI: 12ft is 144in to the last bit, and 0.3m is 30cm.
+double InSi(double number, const Unit& unit);
 // `number` read as what `dimension` says if it is bare.
 model::Value ReadBare(const model::Value& number, model::Dimension dimension, const Unit& unit);
 // The value as the type a parameter, key or setting declares; `name` for the message.

@@ -129,7 +129,7 @@ std::optional<Value> Binder::NumberConstant(NodeId id, bool percent_is_share) {
     return Value::Number(literal.value);
   }
   const Unit& unit_of_measure = program_->measures[*index];
-  return Value::Number(literal.value * unit_of_measure.factor, unit_of_measure.dimension);
+  return Value::Number(InSi(literal.value, unit_of_measure), unit_of_measure.dimension);
 }
 
 std::optional<Value> Binder::Constant(NodeId id) {

@@ -152,7 +152,7 @@ void Binder::BindUnit(NodeId id) {
   if (program_->measures.size() >= 0xffff) {
     return Error(Code::kOutOfRange, SpanOf(kids[0]), "there are too many units", "at most 65535");
   }
-  program_->measures.push_back({name, value->dimension(), value->number()});
+  program_->measures.push_back(WithShares({name, value->dimension(), value->number()}));
 }
 
 namespace {

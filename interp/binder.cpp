@@ -25,6 +25,7 @@ const std::vector<Unit>& StandardMeasures() {
     units.push_back({"deg", model::kAngle, geom::kPi / 180});
     units.push_back({"rad", model::kAngle, 1});
     units.push_back({"px", model::kPixel, 1});
+    for (Unit& unit : units) unit = WithShares(unit);
     return units;
   }();
   return kMeasures;

@@ -118,6 +118,7 @@ struct Unit {
   std::string name;
   model::Dimension dimension;
   double factor = 1;
+  double shares = 0;  // a power of ten that makes `factor` a whole number; 0 where there is none
 };
 
 struct CodeUnit {
