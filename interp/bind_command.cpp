@@ -341,10 +341,17 @@ void Binder::BindNaming(NodeId id) {
       in_turn = 1;
     }
   }
+  // Anything else of this name, in the blocks up to where names belong, would be hidden.
+  const Symbol* other = nullptr;
+  for (const Scope* scope = scope_;; scope = scope->parent) {
+    const auto known = scope->symbols.find(name);
+    if (!other && known != scope->symbols.end() && known->second.kind != Symbol::kElementName) other = &known->second;
+    if (scope->opens_names) break;
+  }
   const auto found = owner->symbols.find(name);
-  if (found != owner->symbols.end() && found->second.kind != Symbol::kElementName) {
+  if (other) {
     return Error(Code::kBoundTwice, SpanOf(node), "`" + name + "` is bound already", "named again here", "",
-                 {{found->second.declared, "first bound here"}});
+                 {{other->declared, "first bound here"}});
   }
   if (found == owner->symbols.end()) owner->symbols.emplace(name, symbol);
   Emit({Op::kName, in_turn, 0, AddText(name), from, index}, SpanOf(node));

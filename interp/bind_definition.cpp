@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Functions, definitions, parameters and interfaces.
+#include <algorithm>
+
 #include "interp/binder.h"
 
 namespace tranos::interp {
@@ -26,7 +28,17 @@ std::optional<model::Dimension> DimensionOf(Type type) {
 
 // Functions and definitions are known in their whole block, so they are declared before its statements are bound.
 void Binder::Predeclare(const std::vector<NodeId>& statements) {
+  const bool has_code = std::any_of(statements.begin(), statements.end(), [&](NodeId id) {
+    return KindOf(id) == NodeKind::kFunction || KindOf(id) == NodeKind::kDefine;
+  });
   for (NodeId id : statements) {
+    // A function may be called before a let that it uses: the let's register is its own from the block's
+    // beginning, and empty until it is bound.
+    if (has_code && KindOf(id) == NodeKind::kLet) {
+      const std::uint32_t reg = NewRegister();
+      let_registers_[id] = reg;
+      Emit({Op::kMove, 0, 0, reg, AddConstant(Value()), 0}, SpanOf(id));
+    }
     if (KindOf(id) == NodeKind::kFunction) PredeclareFunction(id);
     if (KindOf(id) == NodeKind::kDefine) PredeclareDefinition(id);
   }

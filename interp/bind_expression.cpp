@@ -351,8 +351,13 @@ void Binder::LambdaInto(std::uint32_t target, NodeId id) {
     for (NodeId kid : Kids(at)) pending.push_back(kid);
     if (KindOf(at) != NodeKind::kName) continue;
     const Symbol* symbol = Find(Text(at));
-    if (symbol && symbol->kind == Symbol::kRegister && symbol->unit == builder_->id) {
-      captured[Text(at)] = symbol->index;
+    if (!symbol || symbol->unit != builder_->id) continue;
+    if (symbol->kind == Symbol::kRegister) captured[Text(at)] = symbol->index;
+    // An element's name in a loop means this turn's: it is read when the function value is made.
+    if (symbol->kind == Symbol::kElementName && !captured.contains(Text(at))) {
+      const std::uint32_t reg = NewRegister();
+      NameInto(reg, at);
+      captured[Text(at)] = reg;
     }
   }
   const std::uint32_t first = builder_->next_register;
@@ -377,6 +382,7 @@ void Binder::LambdaInto(std::uint32_t target, NodeId id) {
       continue;
     }
     Symbol symbol = *Find(name);
+    symbol.kind = Symbol::kRegister;
     symbol.unit = inner;
     symbol.index = NewRegister();
     scope.symbols[name] = symbol;

@@ -118,7 +118,8 @@ void Binder::BindPlainBlock(NodeId block) {
 void Binder::BindLet(NodeId id) {
   const auto kids = Kids(id);
   const std::string name = Text(kids[0]);
-  const std::uint32_t reg = NewRegister();
+  const auto reserved = let_registers_.find(id);
+  const std::uint32_t reg = reserved != let_registers_.end() ? reserved->second : NewRegister();
   const auto dimension = StaticDimension(kids[1]);
   ExpressionInto(reg, kids[1]);
   Declare(name, {.unit = builder_->id, .index = reg, .dimension = dimension}, SpanOf(kids[0]));
@@ -159,7 +160,8 @@ namespace {
 
 // The names given by `as` in a block for the scope around it: not those in groups or definitions
 // within, but the groups' own.
-void CollectNames(const SyntaxTree& tree, const Sources& sources, NodeId root, std::vector<std::string>* names) {
+void CollectNames(const SyntaxTree& tree, const Sources& sources, NodeId root,
+                  std::map<std::string, Span>* names) {
   std::vector<NodeId> pending{root};
   while (!pending.empty()) {
     const NodeId id = pending.back();
@@ -169,23 +171,32 @@ void CollectNames(const SyntaxTree& tree, const Sources& sources, NodeId root, s
     if (kind == NodeKind::kNaming || kind == NodeKind::kGroup) {
       const NodeId name = tree[id].first_child;
       if (name != kNoNode && tree[name].kind == NodeKind::kName) {
-        names->emplace_back(sources.Slice(tree.SpanOf(name)));
+        names->emplace(NormalWord(sources.Slice(tree.SpanOf(name))), tree.SpanOf(name));
       }
       continue;
     }
     for (NodeId kid = tree[id].first_child; kid != kNoNode; kid = tree[kid].next) pending.push_back(kid);
   }
-  std::sort(names->begin(), names->end());
-  names->erase(std::unique(names->begin(), names->end()), names->end());
 }
 
 }  // namespace
 
+// A name is given at one place: a loop's are new when the outermost loop begins.
+void Binder::CheckUnnamed(const std::map<std::string, Span>& given) {
+  for (const Scope* scope = scope_; scope && !scope->opens_names; scope = scope->parent) {
+    if (scope->is_turn) return;
+  }
+  const std::uint32_t name_scope = NamesScope()->name_scope;
+  for (const auto& [name, span] : given) {
+    Emit({Op::kCheckUnnamed, 0, 0, 0, name_scope, NameIndex(name_scope, name)}, span);
+  }
+}
+
 // One turn of a loop: settings at its `{` come back at its `}`, and names given in it mean this turn's.
-void Binder::BindTurn(NodeId block, Scope* scope, const std::vector<std::string>& given) {
+void Binder::BindTurn(NodeId block, Scope* scope, const std::map<std::string, Span>& given) {
   scope->is_turn = true;
   const std::uint32_t name_scope = NamesScope()->name_scope;
-  for (const std::string& name : given) {
+  for (const auto& [name, span] : given) {
     const std::uint32_t reg = NewRegister();
     scope->turn_registers[name] = reg;
     Emit({Op::kCountName, 0, 0, reg, name_scope, NameIndex(name_scope, name)}, SpanOf(block));
@@ -194,8 +205,8 @@ void Binder::BindTurn(NodeId block, Scope* scope, const std::vector<std::string>
 }
 
 // After a loop its names are lists; within a loop around it, of that one's turn.
-void Binder::LeaveLoop(const Scope& turn, const std::vector<std::string>& given) {
-  for (const std::string& name : given) {
+void Binder::LeaveLoop(const Scope& turn, const std::map<std::string, Span>& given) {
+  for (const auto& [name, span] : given) {
     const auto found = turn.symbols.find(name);
     if (found == turn.symbols.end() || found->second.kind != Symbol::kElementName) continue;
     Symbol symbol = found->second;
@@ -213,8 +224,9 @@ void Binder::LeaveLoop(const Scope& turn, const std::vector<std::string>& given)
 
 void Binder::BindForCount(NodeId id) {
   const auto kids = Kids(id);
-  std::vector<std::string> given;
+  std::map<std::string, Span> given;
   CollectNames(tree(), *program_->sources, kids.back(), &given);
+  CheckUnnamed(given);
   {
     ScopeGuard guard(this);
     const std::uint32_t state = NewRegister();  // from, to, step, in turn number
@@ -244,8 +256,9 @@ void Binder::BindForCount(NodeId id) {
 
 void Binder::BindForEach(NodeId id) {
   const auto kids = Kids(id);
-  std::vector<std::string> given;
+  std::map<std::string, Span> given;
   CollectNames(tree(), *program_->sources, kids.back(), &given);
+  CheckUnnamed(given);
   {
     ScopeGuard guard(this);
     const bool indexed = kids.size() == 4;
@@ -418,6 +431,29 @@ void Binder::BindUnknown(NodeId id) {
   Declare(Text(kids[0]), {.unit = builder_->id, .index = reg, .dimension = StaticDimension(start)}, SpanOf(kids[0]));
 }
 
+namespace {
+
+// The path without `.` and with `..` resolved where something stands before it.
+std::string NormalPath(const std::string& path) {
+  std::vector<std::string> parts;
+  for (std::size_t at = 0; at <= path.size();) {
+    const std::size_t slash = std::min(path.find('/', at), path.size());
+    const std::string part = path.substr(at, slash - at);
+    at = slash + 1;
+    if (part.empty() || part == ".") continue;
+    if (part == ".." && !parts.empty() && parts.back() != "..") {
+      parts.pop_back();
+    } else {
+      parts.push_back(part);
+    }
+  }
+  std::string out = path.starts_with('/') ? "/" : "";
+  for (std::size_t i = 0; i < parts.size(); ++i) out += (i ? "/" : "") + parts[i];
+  return out;
+}
+
+}  // namespace
+
 void Binder::BindUse(NodeId id) {
   if (!at_top_ || in_definition_) {
     return Error(Code::kMisplaced, SpanOf(id), "`use` stands at the top of a script", "inside a block here");
@@ -431,8 +467,8 @@ void Binder::BindUse(NodeId id) {
   const std::string& from = program_->sources->files[tree_->file].path;
   std::string path = written->string();
   const std::size_t slash = from.rfind('/');
-  if (in_used_file_ && slash != std::string::npos) path = from.substr(0, slash + 1) + path;
-  BindUsedFile(id, path);
+  if (in_used_file_ && slash != std::string::npos && !path.starts_with('/')) path = from.substr(0, slash + 1) + path;
+  BindUsedFile(id, NormalPath(path));
 }
 
 void Binder::BindUsedFile(NodeId id, const std::string& path) {
@@ -467,8 +503,10 @@ void Binder::BindUsedFile(NodeId id, const std::string& path) {
       Scope* const outer_scope = std::exchange(scope_, scope.get());
       const bool was_used = std::exchange(in_used_file_, true);
       const auto predeclared = std::exchange(predeclared_, {});
+      const auto let_registers = std::exchange(let_registers_, {});
       BindStatements(tree_->Children(tree_->root));
       predeclared_ = predeclared;
+      let_registers_ = let_registers;
       in_used_file_ = was_used;
       scope_ = outer_scope;
       tree_ = outer_tree;

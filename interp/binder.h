@@ -72,8 +72,9 @@ class Binder {
   void BindUnit(NodeId id);
   void BindForCount(NodeId id);
   void BindForEach(NodeId id);
-  void BindTurn(NodeId block, Scope* scope, const std::vector<std::string>& given);
-  void LeaveLoop(const Scope& turn, const std::vector<std::string>& given);
+  void CheckUnnamed(const std::map<std::string, Span>& given);
+  void BindTurn(NodeId block, Scope* scope, const std::map<std::string, Span>& given);
+  void LeaveLoop(const Scope& turn, const std::map<std::string, Span>& given);
   void BindIf(NodeId id);
   void BindGroup(NodeId id);
   std::size_t BindHypotheses(const std::vector<NodeId>& statements, std::size_t first);
@@ -168,6 +169,7 @@ class Binder {
   Builder* builder_ = nullptr;
   std::uint32_t statement_ = 0;  // counts statements, to tell a key's own
   SourceList constant_sources_;
+  std::map<NodeId, std::uint32_t> let_registers_;  // of lets in a block that has functions
   std::map<NodeId, std::uint32_t> predeclared_;  // define or function node → definition or unit, in this file
   // Files used: path → its top-level scope, null while it is being bound.
   std::map<std::string, std::unique_ptr<Scope>> used_;

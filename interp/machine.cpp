@@ -36,7 +36,7 @@ bool FastCompare(Op op, double a, double b) {
 Machine::Machine(const Program& program, const RunOptions& options, const Host& host)
     : program_(program), options_(options), host_(host), budget_(options.limits) {
   if (options.on_progress) budget_.on_progress = &options.on_progress;
-  innermost_.resize(program.units.size(), {nullptr, nullptr});
+  innermost_.resize(program.units.size());
   places_.resize(program.scopes.size());
 }
 
@@ -98,7 +98,7 @@ Value Machine::Execute(std::uint32_t unit_id, Value* r, std::uint32_t from, Stag
   const CodeUnit& unit = program_.units[unit_id];
   const Instruction* const code = unit.code.data();
   const Value* const k = unit.constants.data();
-  const Activation outer = std::exchange(innermost_[unit_id], Activation{&unit, r});
+  const Activation outer = std::exchange(innermost_[unit_id], Activation{r, stage});
   struct Restore {
     Activation* slot;
     Activation value;
@@ -197,7 +197,7 @@ Value Machine::Execute(std::uint32_t unit_id, Value* r, std::uint32_t from, Stag
           }
           break;
         case Op::kLoadName:
-          r[i.a] = LoadName(i, unit, r, code[at + 1], unit.spans[at]);
+          r[i.a] = LoadName(i, r, code[at + 1], unit.spans[at]);
           if (i.flags & 1) ++at;
           break;
         case Op::kCallFunction: {
@@ -251,7 +251,10 @@ Value Machine::CallClosure(const Value& closure, std::span<const Value> argument
     throw OpFailure{Code::kWrongCount, "the function takes " + std::to_string(parameters) + " value, and is given " +
                                            std::to_string(arguments.size())};
   }
-  return CallUnit(code.unit, arguments, code.captured, span);
+  if (code.stage == stage_) return CallUnit(code.unit, arguments, code.captured, span);
+  std::vector<Value> captured;
+  for (const Value& value : code.captured) captured.push_back(Detached(value, span));
+  return CallUnit(code.unit, arguments, captured, span);
 }
 
 bool Machine::BeginCount(const Instruction& i, Value* r, Span span) {
@@ -334,8 +337,7 @@ bool Machine::NextEach(const Instruction& i, Value* r, Span span) {
   return true;
 }
 
-Value Machine::LoadName(const Instruction& i, const CodeUnit& unit, const Value* r, const Instruction& next,
-                        Span span) {
+Value Machine::LoadName(const Instruction& i, const Value* r, const Instruction& next, Span span) {
   const std::string& name = program_.scopes[i.b].names[i.c];
   const ScopePlace& place = places_[i.b];
   if (!place.stage) Fail(Code::kNotYetBound, span, "`" + Printable(name) + "` names nothing yet");
@@ -352,7 +354,9 @@ Value Machine::LoadName(const Instruction& i, const CodeUnit& unit, const Value*
     }
     items.push_back(Value::OfElement(std::move(element)));
   }
-  (void)unit;
+  if (place.stage != stage_) {
+    for (Value& item : items) item = Detached(item, span);
+  }
   if (i.flags & 2) return Value::List(std::move(items));
   if (items.empty()) {
     Fail(Code::kNotYetBound, span, "`" + Printable(name) + "` names nothing yet", "",
@@ -392,6 +396,19 @@ void Machine::CheckRange(const Instruction& i, const CodeUnit& unit, const Value
   if (inside) return;
   Fail(Code::kOutOfRange, at, "`" + name + "` is " + Format(value, measure, -1) + ", outside its range",
        "expected " + Format(range, measure, -1), "", at == span ? std::vector<Note>{} : std::vector<Note>{{span, "declared here"}});
+}
+
+// A value that crosses into or out of a definition's body: its elements are geometry there, for their ids mean
+// other elements.
+Value Machine::Detached(const Value& value, Span span) {
+  if (value.is_element()) {
+    return Value::OfElement(model::WithId(*value.element(), model::kNoElement));
+  }
+  if (!value.is_list()) return value;
+  budget_.ChargeSteps(value.list().size(), span);
+  std::vector<Value> items;
+  for (const Value& item : value.list()) items.push_back(Detached(item, span));
+  return Value::List(std::move(items));
 }
 
 // Instructions that compute a value and change nothing else.
@@ -457,6 +474,8 @@ void Machine::Compute(const Instruction& i, const CodeUnit& unit, Value* r, Span
     case Op::kMakeClosure: {
       auto closure = std::make_shared<ClosureCode>();
       closure->unit = i.b;
+      closure->stage = stage_;
+      closure->serial = ++closures_made_;
       const std::uint32_t captured = program_.units[i.b].captured;
       closure->captured.assign(r + i.c, r + i.c + captured);
       r[i.a] = Value::OfClosure({std::move(closure)});
@@ -467,7 +486,7 @@ void Machine::Compute(const Instruction& i, const CodeUnit& unit, Value* r, Span
       if (!activation.registers || activation.registers[i.c].is_none()) {
         Fail(Code::kNotYetBound, span, "this name has no value yet", "", "bind it before the first use of the function");
       }
-      r[i.a] = activation.registers[i.c];
+      r[i.a] = activation.stage == stage_ ? activation.registers[i.c] : Detached(activation.registers[i.c], span);
       break;
     }
     case Op::kLoadLast: {
@@ -484,6 +503,15 @@ void Machine::Compute(const Instruction& i, const CodeUnit& unit, Value* r, Span
       const ScopePlace& place = places_[i.b];
       const model::Names& names = place.stage->NamesOut(place.stage->groups() - place.depth);
       r[i.a] = Value::Number(static_cast<double>(names[i.c].ids.size()));
+      break;
+    }
+    case Op::kCheckUnnamed: {
+      const ScopePlace& place = places_[i.b];
+      const model::Names& names = place.stage->NamesOut(place.stage->groups() - place.depth);
+      if (names[i.c].given) {
+        Fail(Code::kBoundTwice, span, "`" + program_.scopes[i.b].names[i.c] + "` names something already",
+             "named again in this loop", "choose another name");
+      }
       break;
     }
     case Op::kCheckRange: CheckRange(i, unit, r, span); break;
@@ -545,9 +573,13 @@ void Machine::Effect(const Instruction& i, const CodeUnit& unit, Value* r, Stage
     case Op::kBlockEnd: stage->BlockEnd(span); break;
     case Op::kGroupBegin:
       stage->GroupBegin(i.a, span);
-      places_[i.a] = {stage, stage->groups()};
+      outer_places_.emplace_back(i.a, std::exchange(places_[i.a], ScopePlace{stage, stage->groups()}));
       break;
-    case Op::kGroupEnd: stage->GroupEnd(span); break;
+    case Op::kGroupEnd:
+      stage->GroupEnd(span);
+      places_[outer_places_.back().first] = outer_places_.back().second;
+      outer_places_.pop_back();
+      break;
     case Op::kInterface: NoteInterface(i, unit, r, span); break;
     case Op::kAssert: NoteAssert(i, unit, r, span); break;
     default: break;  // computed elsewhere

@@ -23,8 +23,8 @@ class Machine {
   using Registers = std::vector<model::Value>;
   // What a unit's code runs on; the innermost one of each unit is what code within it sees.
   struct Activation {
-    const CodeUnit* unit;
-    model::Value* registers;
+    model::Value* registers = nullptr;
+    const Stage* stage = nullptr;
   };
   // One elements' scope that is open: the stage it belongs to, and how many groups deep.
   struct ScopePlace {
@@ -33,6 +33,8 @@ class Machine {
   };
   struct ClosureCode {
     std::uint32_t unit;
+    const Stage* stage;    // where it was made
+    std::uint64_t serial;  // tells function values of a run apart
     std::vector<model::Value> captured;
   };
 
@@ -46,8 +48,8 @@ class Machine {
   bool NextCount(const Instruction& i, model::Value* registers, Span span);
   bool BeginEach(const Instruction& i, model::Value* registers, Span span);
   bool NextEach(const Instruction& i, model::Value* registers, Span span);
-  model::Value LoadName(const Instruction& i, const CodeUnit& unit, const model::Value* registers,
-                        const Instruction& next, Span span);
+  model::Value LoadName(const Instruction& i, const model::Value* registers, const Instruction& next, Span span);
+  model::Value Detached(const model::Value& value, Span span);
   void Effect(const Instruction& i, const CodeUnit& unit, model::Value* registers, Stage* stage, Span span);
   void PointEffect(const Instruction& i, const CodeUnit& unit, const model::Value* registers, Stage* stage, Span span);
   void NoteAssert(const Instruction& i, const CodeUnit& unit, const model::Value* registers, Span span);
@@ -71,8 +73,10 @@ class Machine {
   SourceList sources_;
   std::vector<Activation> innermost_;     // by unit
   std::vector<ScopePlace> places_;        // by name scope
+  std::vector<std::pair<std::uint32_t, ScopePlace>> outer_places_;  // of the groups that are open
   std::vector<std::uint32_t> turns_;
   std::vector<const model::Value*> turn_values_;  // the variables of the loops that are open
+  std::uint64_t closures_made_ = 0;
   int call_depth_ = 0;
   int definition_depth_ = 0;
   Stage* stage_ = nullptr;  // of the code that runs

@@ -64,7 +64,7 @@ Hash128 Machine::KeyOf(const Definition& definition, const Registers& registers)
     AddToHash(hasher, value);
     // A function value has no content to hash: only itself is the same.
     if (value.kind() == Value::Kind::kClosure) {
-      hasher.Integer(static_cast<std::int64_t>(reinterpret_cast<std::intptr_t>(value.closure().code.get())));
+      hasher.Integer(static_cast<std::int64_t>(static_cast<const ClosureCode*>(value.closure().code.get())->serial));
     }
   }
   for (const auto& [scope, index] : outer_names_[definition.unit]) {
@@ -90,7 +90,7 @@ model::ElementPtr Machine::Place(const Placement& placement, const model::State&
   Registers registers(unit.registers);
   for (std::size_t i = 0; i < definition.parameters.size(); ++i) {
     const DefinedParameter& parameter = definition.parameters[i];
-    registers[i] = placement.arguments[i];
+    registers[i] = Detached(placement.arguments[i], placement.span);
     for (const auto& [name, measure] : placement.measures) {
       if (name != parameter.name) continue;
       const Value value = Convert(measure, parameter.type, program_.measures[0], name);

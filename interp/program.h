@@ -55,7 +55,7 @@ enum class Op : std::uint8_t {
   kForEach,          // registers a (list), a+1 (index); jumps to c if empty
   kForEachNext,      // … the next item to register b, its index to register n (if not 0xffff), or to c
   kCountName,        // a ← how many elements the name (scope b, index c) has now
-  kTurn,             // counts a turn; pushes (flags 0) or pops (flags 1) a turn for origins
+  kCheckUnnamed,     // an error if the name (scope b, index c) stands for something already
   kReturn,           // the value b
   kHalt,
   // Effects

@@ -371,6 +371,8 @@ void Stage::BlockEnd(Span span) {
 
 void Stage::GroupBegin(std::uint32_t scope, Span span) {
   End(span, false);
+  undone_.clear();  // redo does not reach into a group, nor out of it
+  TakeIds();
   groups_.push_back({scope, state_.drawing.names, history_.size(), state_.model.entries.size(), state_});
   state_.drawing.names = {};
   BlockBegin(true);
@@ -382,6 +384,8 @@ void Stage::GroupEnd(Span span) {
   BlockEnd(span);
   OpenGroup open = std::move(groups_.back());
   groups_.pop_back();
+  if (!groups_.empty() && open.touches_outside) groups_.back().touches_outside = true;
+  undone_.clear();
   auto group = std::make_shared<model::Group>();
   model::Edit edit;
   for (std::size_t id = open.first_id; id < state_.model.entries.size(); ++id) {
@@ -392,13 +396,15 @@ void Stage::GroupEnd(Span span) {
   }
   group->names = NamesOf(open.scope);
   state_.drawing.names = open.names;
-  state_.drawing.names.Rehash(state_.model.entries);
+  if (open.touches_outside) state_.drawing.names.Rehash(state_.model.entries);
   // The group is one step: what was done in it is not undone by itself.
+  const bool changed = history_.size() > open.history_size;
   history_.resize(open.history_size);
   marks_.erase(std::remove_if(marks_.begin(), marks_.end(),
                               [&](const auto& mark) { return mark.second > open.history_size; }),
                marks_.end());
   made_.clear();
+  if (changed) history_.push_back(std::move(open.before));
   if (group->members.empty()) return;
   // A group hands none of its own settings on to its members.
   auto attributes = std::make_shared<model::Attributes>(*state_.drawing.settings->attributes);
@@ -407,7 +413,6 @@ void Stage::GroupEnd(Span span) {
                                              std::move(attributes)));
   edit.added.back() = model::WithGeometry(*edit.added.back(), model::GroupPtr(std::move(group)));
   edit.selection = state_.drawing.selection;
-  history_.push_back(std::move(open.before));
   links_.budget->ChargeElements(1, span);
   if (links_.options) key_in_ = "} group";
   Commit(edit, span);

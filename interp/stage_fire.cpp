@@ -193,6 +193,7 @@ void Stage::Fire(Span span) {
     }
   }
   links_.budget->ChargeElements(result->edit.added.size(), span);
+  TakeIds();
   if (result->edit.ChangesModel()) history_.push_back(state_);
   Commit(result->edit, span);
   AskAgain();
@@ -213,6 +214,7 @@ void Stage::FirePlacement(Span span) {
   model::Edit edit;
   edit.added.push_back(links_.place(placement, state_));
   links_.budget->ChargeElements(1, span);
+  TakeIds();
   history_.push_back(state_);
   Commit(edit, span);
   AskAgain();
@@ -393,7 +395,8 @@ void Stage::RestoreModel(const model::State& earlier) {
   state_.drawing.selection = earlier.drawing.selection;
 }
 
-// The ids of elements that were undone stay taken.
+// The ids of elements that were undone stay taken. To be called before the state becomes history, so that an
+// undo does not lose what was filled in.
 void Stage::TakeIds() {
   while (state_.model.entries.size() < ids_given_) {
     state_.model.entries.Append({nullptr, model::Standing::kDeleted});
