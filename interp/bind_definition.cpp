@@ -282,11 +282,31 @@ void Binder::BindParameterStatement(NodeId id) {
   builder_->next_register = reg + 1;
 }
 
+// Parameters, parts and interfaces are members side by side, so that no two share a name.
+void Binder::DeclareInterface(NodeId name_node) {
+  const std::string name = Text(name_node);
+  const Span span = SpanOf(name_node);
+  if (!CheckName(name, span)) return;
+  Scope* const owner = NamesScope();
+  const auto refuse = [&](std::string_view kind, Span declared) {
+    Error(Code::kBoundTwice, span, "`" + name + "` is " + std::string(kind) + " already", "named again here",
+          "parameters, parts and interfaces have names of their own", {{declared, "declared here"}});
+  };
+  const auto found = owner->symbols.find(name);
+  if (found != owner->symbols.end()) {
+    const Symbol& symbol = found->second;
+    if (symbol.kind == Symbol::kElementName) return refuse("a part", symbol.declared);
+    if (symbol.unit == builder_->id && symbol.index < unit().parameters) return refuse("a parameter", symbol.declared);
+  }
+  owner->interfaces.emplace(name, span);
+}
+
 void Binder::BindInterface(NodeId id) {
   const auto kids = Kids(id);
   if (!in_definition_) {
     return Error(Code::kMisplaced, SpanOf(id), "`interface` stands in a definition", "outside of one here");
   }
+  DeclareInterface(kids[0]);
   const auto count = static_cast<std::uint32_t>(kids.size() - 1);
   const std::uint32_t first = builder_->next_register;
   for (std::uint32_t i = 0; i < 2 * count; ++i) NewRegister();

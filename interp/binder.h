@@ -38,6 +38,7 @@ struct Scope {
   Scope* parent = nullptr;
   std::uint32_t name_scope = 0;
   bool opens_names = false;  // a script, group or definition: `as` names belong here
+  std::map<std::string, Span> interfaces;  // of a definition
   bool is_turn = false;      // a loop's body
   std::map<std::string, std::uint32_t> turn_registers;  // of a loop: name → where its turn began
   std::uint16_t measure = 0;                            // the working unit from here on
@@ -91,6 +92,7 @@ class Binder {
   void BindDefine(NodeId id);
   void BindParameterStatement(NodeId id);
   void BindInterface(NodeId id);
+  void DeclareInterface(NodeId name_node);
   void EmitParameter(NodeId param, const DefinedParameter& declared, std::uint32_t reg);
   void EmitRangeCheck(NodeId param, const DefinedParameter& declared, std::uint32_t reg);
   // Commands (bind_command.cpp).

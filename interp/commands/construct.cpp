@@ -139,6 +139,9 @@ constexpr Key kRevolutionKeys[] = {
     {"angle", Type::kAngle, "how far to turn, anticlockwise seen from `to`", {}, "360deg"}};
 
 constexpr Example kEdgeExamples[] = {
+    {"place line xy=0,0,0 dl=4 dl=0,4 dl=-4,-4 as sides\n"
+     "construct surface edge of=sides keep=true; choose all; move xy=0,0,0 dl=0",
+     "len(last) == 4"},
     {"place line xy=0,0,0 dl=4 dl=0,4 dl=-4 dl=0,-4 as sides; construct surface edge of=sides",
      "last.area within 16m2 +- 0.000001m2"},
     {"place line xy=0,0,0 dl=4 dl=0,4 dl=-4 dl=5,9 as sides; construct surface edge of=sides",
@@ -155,6 +158,10 @@ constexpr Example kProjectionExamples[] = {
     {"place line xy=0,0,0 dl=4 as base; construct surface projection of=base", "E0220"}};
 constexpr Example kRevolutionExamples[] = {
     {"place line xy=1,0,0 dl=0,0,2 as side\n"
+     "construct surface revolution of=side from=[0,0,0] to=[0,0,1] keep=true\n"
+     "choose all; move xy=0,0,0 dl=0",
+     "len(last) == 2"},
+    {"place line xy=1,0,0 dl=0,0,2 as side\n"
      "construct surface revolution of=side from=[0,0,0] to=[0,0,1]",
      "last.area within 12.566371m2 +- 0.000001m2"},
     {"place line xy=1,0,0 dl=0,0,2 as side\n"
@@ -164,6 +171,9 @@ constexpr Example kRevolutionExamples[] = {
      "construct surface revolution of=side from=[0,0,1] to=[0,0,1]",
      "E0501"}};
 constexpr Example kRuledExamples[] = {
+    {"place line xy=0,0,0 dl=4 as a; place line xy=0,3,0 dl=4 as b\n"
+     "construct surface ruled of=[a, b] keep=true; choose all; move xy=0,0,0 dl=0",
+     "len(last) == 3"},
     {"place line xy=0,0,0 dl=4 as a; place line xy=0,3,0 dl=4 as b; construct surface ruled "
      "of=[a, b]",
      "last.area within 12m2 +- 0.000001m2"},

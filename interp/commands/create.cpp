@@ -102,14 +102,23 @@ constexpr Prompt kPartPrompts[] = {{"part, or a point off everything to accept"}
 constexpr Key kKeys[] = {kOf, kKeep};
 
 constexpr Example kChainExamples[] = {
+    {"place line xy=0,0,0 dl=3 dl=0,4 as parts; create chain of=parts keep=true; choose all\n"
+     "move xy=0,0,0 dl=0",
+     "len(last) == 3"},
     {"place line xy=0,0,0 dl=3 dl=0,4; create chain xy=1,0,0 xy=3,2,0 xy=50,50,0",
      "last.length == 7m"},
     {"place line xy=0,0,0 dl=3; place line xy=0,9,0 dl=3; choose all; create chain", "E0502"}};
 constexpr Example kShapeExamples[] = {
+    {"place line xy=0,0,0 dl=4 dl=0,3 dl=-4,-3 as sides; create shape of=sides keep=true\n"
+     "choose all; move xy=0,0,0 dl=0",
+     "len(last) == 4"},
     {"place line xy=0,0,0 dl=4 dl=0,3 dl=-4,-3 as sides; create shape of=sides",
      "last.area within 6m2 +- 0.000001m2"},
     {"place line xy=0,0,0 dl=4 dl=0,3 as sides; create shape of=sides", "E0503"}};
 constexpr Example kGroupExamples[] = {
+    {"place point xy=0,0,0 as post; create group of=post keep=true; choose all\n"
+     "move xy=0,0,0 dl=0",
+     "len(last) == 2"},
     {"place point xy=0,0,0 xy=5,0,0 as posts; create group of=posts; choose element xy=0,0,0\n"
      "move xy=0,0,0 dl=1",
      "last.bbox.max.x == 6m"},

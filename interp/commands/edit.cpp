@@ -151,6 +151,9 @@ constexpr Prompt kPrompts[] = {{"element, or a point off everything to accept"}}
 constexpr Key kKeys[] = {kOf};
 
 constexpr Example kDeleteExamples[] = {
+    {"place point xy=0,0,0; place point xy=1,0,0 as peg; delete of=peg; choose all\n"
+     "move xy=0,0,0 dl=0",
+     "last.x == 0m"},
     {"place point xy=0,0,0 xy=1,0,0; delete xy=1,0,0 xy=9,9,9; choose all; move xy=0,0,0 dl=2",
      "last.bbox.max.x == 2m"},
     {"delete of=5", "E0203"}};

@@ -104,6 +104,7 @@ constexpr Example kRenderExamples[] = {
     {"place block xy=0,0,0 xy=4,3,0; render file=\"plan.png\" size=640,480", "true"},
     {"render file=\"plan.bmp\"", "E0705"}};
 constexpr Example kRenderAllExamples[] = {{"place line xy=0,0,0 dl=3; render all", "true"},
+                                          {"render all size=640,480", "true"},
                                           {"render all size=0,480", "E0212"}};
 constexpr Example kExportExamples[] = {
     {"place block xy=0,0,0 xy=4,3,0; export \"hall.glb\"", "true"},

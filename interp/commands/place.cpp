@@ -257,7 +257,8 @@ constexpr Example kShapeExamples[] = {
     {"place shape xy=0,0,0 dl=4 dl=0,3 reset", "last.area within 6m2 +- 0.000001m2"},
     {"place shape xy=0,0,0 xy=4,0,0 xy=4,3,0 xy=0,3,1 reset", "E0504"}};
 constexpr Example kTextExamples[] = {
-    {"place text \"nave\" xy=2,1,0 height=0.5m", "last.bbox.min.y < 1.5m"},
+    {"place text \"nave\" height=0.5m xy=2,1,0", "last.height == 0.5m"},
+    {"place text text=\"nave\" xy=2,1,0", "last.text == \"nave\""},
     {"place text xy=0,0,0", "E0220"}};
 
 constexpr Command kCommands[] = {

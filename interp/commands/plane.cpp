@@ -93,6 +93,9 @@ constexpr Example kExamples[] = {
     {"set plane front; place circle xy=0,0,0 radius=2", "last.bbox.max.z within 2m +- 0.000001m"},
     {"set plane at=[0,0,3] normal=[1,0,0]; place line ax=0,0 dl=4", "last.bbox.max.y == 4m"},
     {"set plane normal=[0,0,1] x=[0,1,0]; place line ax=0,0 dl=4", "last.bbox.max.y == 4m"},
+    {"set plane front; place circle radius=1 xy=0,0,0 as c; set plane top; set plane of=c.plane\n"
+     "place point ax=0,2",
+     "last.z == 2m"},
     {"set plane of=5", "E0203"},
     {"set plane normal=[0,0,0]", "E0501"}};
 

@@ -82,6 +82,7 @@ constexpr Example kCopyExamples[] = {
     {"place point xy=0,0,0; copy of=last xy=0,0,0 dl=2 dl=2 reset", "last.bbox.min.x == 4m"},
     {"copy xy=0,0,0 dl=5", "E0404"}};
 constexpr Example kMoveExamples[] = {
+    {"place point xy=1,0,0; move of=last xy=0,0,0 dl=3", "last.x == 4m"},
     {"place point xy=1,0,0; choose element xy=1,0,0; move xy=0,0,0 dl=0,5",
      "last.bbox.max.y == 5m"},
     {"move xy=0,0,0 dl=5", "E0404"}};
@@ -91,21 +92,25 @@ constexpr Example kRotateExamples[] = {
     {"place line xy=0,0,0 dl=10; rotate of=last angle=-90 xy=0,0,0", "last.bbox.min.y == -10m"},
     {"rotate xy=0,0,0", "E0404"}};
 constexpr Example kRotateCopyExamples[] = {
+    {"place line xy=0,0,0 dl=5; rotate copy of=last angle=90 xy=0,0,0", "last.bbox.max.y == 5m"},
     {"place line xy=0,0,0 dl=30; choose last; aa=90; rotate copy xy=30,0,0 xy=30,-30,0 reset",
      "last.bbox.min.y == -30m"},
     {"place line xy=0,0,0 dl=10; choose last; rotate copy angle=180 xy=0,0,0",
      "last.bbox.min.x == -10m"},
     {"rotate copy xy=0,0,0", "E0404"}};
 constexpr Example kMirrorExamples[] = {
+    {"place point xy=3,1,0; mirror of=last xy=0,0,0 xy=1,0,0", "last.y == -1m"},
     {"place point xy=3,1,0; choose last; mirror xy=0,0,0 xy=0,9,0",
      "last.bbox.min.x within -3m +- 0.000001m"},
     {"place point xy=3,1,0; choose last; mirror xy=0,0,0 xy=0,0,0", "E0501"}};
 constexpr Example kMirrorCopyExamples[] = {
+    {"place point xy=3,1,0 as p; mirror copy of=p xy=0,0,0 xy=0,1,0", "last.x == -3m"},
     {"place point xy=3,1,0; choose last; mirror copy xy=0,0,0 xy=1,0,0; choose all\n"
      "move xy=0,0,0 dl=0,0,2",
      "len(last) == 2"},
     {"place point xy=3,1,0; choose last; mirror copy xy=0,0,0 xy=0,0,5", "E0501"}};
 constexpr Example kScaleExamples[] = {
+    {"place line xy=0,0,0 dl=2; as=2; scale of=last xy=0,0,0", "last.length == 4m"},
     {"place line xy=1,0,0 dl=1; choose last; as=3; scale xy=0,0,0", "last.bbox.max.x == 6m"},
     {"place line xy=1,0,0 dl=1; choose last; as=1,2,1; scale xy=0,0,0", "last.length == 1m"},
     {"scale xy=0,0,0", "E0404"}};
