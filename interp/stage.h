@@ -138,6 +138,7 @@ class Stage {
   void AnswerPrompt(const geom::Vec3& point, Span span);
   void PickOrAccept(const geom::Vec3& point, Span span);
   bool PromptsAnswered() const;
+  bool TransformIsAnswered() const;
   bool KeyAnswers(int prompt) const;
   const KeyAnswer* FindKey(std::string_view name) const;
   const KeyAnswer* FindOf() const;

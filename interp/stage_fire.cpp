@@ -271,6 +271,11 @@ void Stage::AskAgain() {
   for (std::size_t i = static_cast<std::size_t>(row.again); i < active_.answered.size(); ++i) active_.answered[i] = false;
 }
 
+// Without questions it has all it needs; with them only if keys answered them all.
+bool Stage::TransformIsAnswered() const {
+  return active_.firings == 0 && PromptsAnswered() && (FindOf() || active_.row->prompts.empty());
+}
+
 void Stage::EndStatement(Span span) {
   if (!active_.row || !active_.own_statement) {
     // `of=` given later fires at the end of the statement it stands in.
@@ -290,8 +295,7 @@ void Stage::EndStatement(Span span) {
       if (ChosenCount() > 0 && active_.picks.empty()) Fire(span);
       break;
     case Manner::kTransforms:
-      // Without questions it has all it needs; with them only if keys answered them all.
-      if (active_.firings == 0 && PromptsAnswered() && (of || active_.row->prompts.empty())) Fire(span);
+      if (TransformIsAnswered()) Fire(span);
       break;
     default: break;
   }
@@ -357,6 +361,7 @@ void Stage::End(Span span, bool is_reset) {
     case Manner::kPicks:
     case Manner::kEdits: EndPicking(is_reset, span); break;
     default:
+      if (row.manner == Manner::kTransforms && TransformIsAnswered()) Fire(span);
       if (!is_reset && (active_.begun > 0 || active_.firings == 0)) {
         if (row.manner == Manner::kTransforms && ChosenCount() == 0) {
           Fail(Code::kNothingChosen, active_.span, "nothing is chosen for `" + std::string(row.words) + "`", "",
