@@ -15,13 +15,14 @@ using interp::Code;
 using interp::Diagnostic;
 using interp::Span;
 
-// Of the model that is written unasked.
+// Of what is no fault of a statement.
 constexpr Span kNoPlace{UINT32_MAX, 0, 0};
 
 struct Request {
   model::OutputRequest what;
   std::string path;  // below the output folder
   Span span;
+  std::string label = {};
 };
 
 // "elements/church.trn" → "church"
@@ -34,14 +35,17 @@ std::string StemOf(const std::string& path) {
 
 // The model first, then what the script asked for in its order; of two with one path the later
 // stays.
-std::vector<Request> RequestsOf(const interp::Outcome& outcome, const std::string& stem) {
+std::vector<Request> RequestsOf(const interp::ScriptResult& result, const std::string& stem) {
+  const interp::Outcome& outcome = result.outcome;
   std::vector<Request> all;
   const auto add = [&](model::OutputRequest what, std::string path, Span span) {
     std::erase_if(all, [&](const Request& earlier) { return earlier.path == path; });
     all.push_back({std::move(what), std::move(path), span});
   };
   const std::string model_path = stem + ".glb";
-  add(model::ExportRequest{outcome.state.model, model_path}, model_path, kNoPlace);
+  const auto end = static_cast<std::uint32_t>(result.sources->files[0].text.size());
+  add(model::ExportRequest{outcome.state.model, model_path}, model_path, {0, end, end});
+  all.back().label = "at its end the model is written";
   int picture = 0;
   for (std::size_t i = 0; i < outcome.outputs.size(); ++i) {
     const model::OutputRequest& what = outcome.outputs[i];
@@ -56,8 +60,8 @@ std::vector<Request> RequestsOf(const interp::Outcome& outcome, const std::strin
 tl::expected<std::string, Diagnostic> BytesOf(const Request& request, int threads) {
   const auto refused = [&](Code code, std::string why, std::string help) {
     return tl::unexpected(Diagnostic{code, request.span,
-                                     "`" + request.path + "` cannot be made: " + std::move(why), "",
-                                     std::move(help)});
+                                     "`" + request.path + "` cannot be made: " + std::move(why),
+                                     request.label, std::move(help)});
   };
   try {
     const auto* exported = std::get_if<model::ExportRequest>(&request.what);
@@ -73,12 +77,13 @@ tl::expected<std::string, Diagnostic> BytesOf(const Request& request, int thread
   }
 }
 
-Diagnostic FromHost(const interp::HostError& error, const std::string& path, Span span) {
+Diagnostic FromHost(const interp::HostError& error, const std::string& path, Span span,
+                    const std::string& label = {}) {
   using Kind = interp::HostError::Kind;
   const Code code = error.kind == Kind::kOutside     ? Code::kOutsideSandbox
                     : error.kind == Kind::kProtected ? Code::kProtectedFile
                                                      : Code::kCannotWrite;
-  return {code, span, "`" + path + "` cannot be written: " + error.detail, "", ""};
+  return {code, span, "`" + path + "` cannot be written: " + error.detail, label, ""};
 }
 
 Written Failed(Diagnostic diagnostic) {
@@ -94,14 +99,13 @@ Written WriteOutputs(const ScriptRun& run, const RunVerbOptions& options, Progre
   const int threads = options.threads > 0
                           ? options.threads
                           : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-  const std::vector<Request> requests =
-      RequestsOf(run.result.outcome, StemOf(options.script.script));
+  const std::vector<Request> requests = RequestsOf(run.result, StemOf(options.script.script));
   auto writer = Writer::Into(options.output, run.sandbox.get());
   if (!writer) return Failed(FromHost(writer.error(), options.output, kNoPlace));
   // Refusals come before long work.
   for (const Request& request : requests) {
     if (const auto free = writer->Check(request.path); !free) {
-      return Failed(FromHost(free.error(), request.path, request.span));
+      return Failed(FromHost(free.error(), request.path, request.span, request.label));
     }
   }
   Written written;
@@ -112,7 +116,7 @@ Written WriteOutputs(const ScriptRun& run, const RunVerbOptions& options, Progre
     const auto bytes = BytesOf(request, threads);
     if (!bytes) return Failed(bytes.error());
     if (const auto put = writer->Write(request.path, *bytes); !put) {
-      return Failed(FromHost(put.error(), request.path, request.span));
+      return Failed(FromHost(put.error(), request.path, request.span, request.label));
     }
     written.files.push_back({options.output + "/" + request.path, bytes->size()});
   }
