@@ -159,12 +159,17 @@ bool Binder::BindWord(NodeId id, const Command* row) {
     Emit({Op::kOption, 0, 0, AddText(word), 0, 0}, SpanOf(id));
     return true;
   }
+  const std::string in_text =
+      row && !row->string_key.empty() ? "`" + std::string(row->words) + " \"{" + word + "}\"` shows it in a text" : "";
   if (KindOf(id) == NodeKind::kNumber) {
-    Error(Code::kUnknownWord, SpanOf(id), "a number has no meaning here", "", "values are given by key=");
+    Error(Code::kUnknownWord, SpanOf(id), "a number has no meaning here", "",
+          in_text.empty() ? "values are given by key=" : in_text);
     return false;
   }
   std::string help = "values are given by key=, a variable's too";
-  if (BeginsCommand(LowerCase(word))) {
+  if (!in_text.empty() && (Find(word) || row->words == "print")) {
+    help = in_text;
+  } else if (BeginsCommand(LowerCase(word))) {
     help = "a command starts a line or follows `;`";
   } else if (row) {
     if (const auto meant = DidYouMean(LowerCase(word), SplitWords(row->options))) {

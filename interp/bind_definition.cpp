@@ -237,6 +237,30 @@ void Binder::BindDefine(NodeId id) {
   scope_ = outer_scope;
 }
 
+// The value of -D is bound as a text of its own, so that its errors show where it was given.
+void Binder::BindGivenValue(const DefinedParameter& declared, const std::string& given, std::uint32_t reg) {
+  program_->sources->files.push_back(MakeSource("-D", declared.name + "=" + given));
+  const auto file = static_cast<std::uint32_t>(program_->sources->files.size() - 1);
+  Diagnostics parsing;
+  used_trees_.push_back(Parse(*program_->sources, file, {options_.depth}, &parsing));
+  for (const Diagnostic& diagnostic : parsing.list()) diagnostics_.Add(diagnostic);
+  const SyntaxTree* const script = std::exchange(tree_, &used_trees_.back());
+  if (!parsing.has_errors()) {
+    const auto statements = Kids(tree_->root);
+    const auto keys = statements.size() == 1 ? Kids(statements[0]) : std::vector<NodeId>{};
+    if (keys.size() == 1 && KindOf(keys[0]) == NodeKind::kKeyIn) {
+      auto values = Kids(keys[0]);
+      values.erase(values.begin());
+      const Operand operand = Typed(values, declared.type, declared.list, declared.words, declared.name, keys[0]);
+      Emit({Op::kMove, 0, 0, reg, operand, 0}, SpanOf(keys[0]));
+    } else {
+      Error(Code::kUnexpectedToken, SpanOf(tree_->root), "-D gives a parameter its value, and nothing else",
+            "expected a value such as -D " + declared.name + "=14m");
+    }
+  }
+  tree_ = script;
+}
+
 void Binder::BindParameterStatement(NodeId id) {
   const NodeId param = Kids(id)[0];
   if (!at_top_ || in_used_file_ || in_definition_) {
@@ -253,21 +277,7 @@ void Binder::BindParameterStatement(NodeId id) {
     if (name == declared->name) given = &text;
   }
   if (given) {
-    // The value is bound as a text of its own, so that its errors show where it was given.
-    program_->sources->files.push_back(MakeSource("-D " + declared->name, *given));
-    const auto file = static_cast<std::uint32_t>(program_->sources->files.size() - 1);
-    const std::string statement = "let value = " + *given;
-    program_->sources->files.back() = MakeSource("-D " + declared->name, statement);
-    Diagnostics parsing;
-    used_trees_.push_back(Parse(*program_->sources, file, {options_.depth}, &parsing));
-    for (const Diagnostic& diagnostic : parsing.list()) diagnostics_.Add(diagnostic);
-    const SyntaxTree* const script = std::exchange(tree_, &used_trees_.back());
-    if (!parsing.has_errors() && Kids(tree_->root).size() == 1) {
-      const NodeId value = Kids(Kids(tree_->root)[0])[1];
-      const Operand operand = Typed({value}, declared->type, declared->list, declared->words, declared->name, value);
-      Emit({Op::kMove, 0, 0, reg, operand, 0}, SpanOf(value));
-    }
-    tree_ = script;
+    BindGivenValue(*declared, *given, reg);
     EmitRangeCheck(param, *declared, reg);
   } else if (declared->standard.empty()) {
     Error(Code::kMissingValue, declared->span, "the parameter `" + declared->name + "` has no value", "",

@@ -325,6 +325,7 @@ std::size_t Binder::BindHypotheses(const std::vector<NodeId>& statements, std::s
   std::size_t end = first;
   std::size_t chosen = first;
   while (end < statements.size() && KindOf(statements[end]) == NodeKind::kHypothesis) {
+    hypotheses_.push_back(Kids(statements[end])[0]);
     if (!options_.hypothesis.empty() && Text(Kids(statements[end])[0]) == options_.hypothesis) {
       chosen = end;
       ++program_->hypotheses_matched;

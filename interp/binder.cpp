@@ -83,10 +83,26 @@ Bound Binder::BindScript(const SyntaxTree& script) {
     if (!declared_parameters_.contains(name)) bound.undeclared.push_back(name);
   }
   if (!options_.hypothesis.empty() && program_->hypotheses_matched == 0) {
-    bound.diagnostics.Add({Code::kUnknownHypothesis, Span{script.file, 0, 0},
-                           "no hypothesis is named `" + Printable(options_.hypothesis) + "`", "", ""});
+    bound.diagnostics.Add(UnknownHypothesis(script));
   }
   return bound;
+}
+
+Diagnostic Binder::UnknownHypothesis(const SyntaxTree& script) const {
+  const std::string asked = "`" + Printable(options_.hypothesis) + "`";
+  if (hypotheses_.empty()) {
+    return {Code::kUnknownHypothesis, {script.file, 0, 0}, "the script has no hypothesis " + asked, "",
+            "it has no `hypothesis` at all: run it without --hypothesis"};
+  }
+  std::vector<std::string> names;
+  std::string list;
+  for (const NodeId name : hypotheses_) {
+    names.push_back(Text(name));
+    list += (list.empty() ? "" : ", ") + names.back();
+  }
+  const auto meant = DidYouMean(options_.hypothesis, names);
+  return {Code::kUnknownHypothesis, SpanOf(hypotheses_[0]), "the script has no hypothesis " + asked,
+          "expected one of " + list, meant ? "did you mean `" + *meant + "`?" : ""};
 }
 
 const Symbol* Binder::Find(const std::string& name) const {

@@ -91,6 +91,7 @@ class Binder {
   void BindFunction(NodeId id);
   void BindDefine(NodeId id);
   void BindParameterStatement(NodeId id);
+  void BindGivenValue(const DefinedParameter& declared, const std::string& given, std::uint32_t reg);
   void BindInterface(NodeId id);
   void DeclareInterface(NodeId name_node);
   void EmitParameter(NodeId param, const DefinedParameter& declared, std::uint32_t reg);
@@ -161,6 +162,7 @@ class Binder {
              std::string help = {}, std::vector<Note> notes = {});
   void Report(const OpFailure& failure, Span span);
   std::vector<std::string> VisibleNames() const;
+  Diagnostic UnknownHypothesis(const SyntaxTree& script) const;
 
   std::shared_ptr<Program> program_;
   const BindOptions& options_;
@@ -181,6 +183,7 @@ class Binder {
   bool in_definition_ = false;
   int depth_ = 0;  // of the expression being bound
   std::set<std::string> declared_parameters_;
+  std::vector<NodeId> hypotheses_;  // the names of all alternatives
   std::unordered_map<const Command*, std::uint32_t> uses_;
   std::unordered_map<std::uint32_t, std::unordered_map<std::string, std::uint32_t>> name_indices_;
 };

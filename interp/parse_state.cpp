@@ -250,7 +250,7 @@ std::string ParseState::HelpForNow() const {
   if (At(Keyword::kNot) || At(Keyword::kIf)) return "put that part in parentheses";
   switch (Now().kind) {
     case TokenKind::kComma:
-      return "a point is given by its key: xy=1,2,3";
+      return "a point is given by its key: xy=1,2,3; a list is written in brackets: [1, 2]";
     case TokenKind::kDotDot:
     case TokenKind::kPlusMinus:
       return "put one of the two in parentheses";

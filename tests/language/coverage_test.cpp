@@ -15,7 +15,7 @@ namespace {
 // Codes that no script can bring about by itself, and where they are tested.
 const std::map<std::string, std::string>& TestedElsewhere() {
   static const std::map<std::string, std::string> elsewhere = {
-      {"E0603", "tests/interp/language/limits_test.cpp: it depends on the machine's memory"},
+      {"E0506", "tests/app: facets are made when something is written"},
       {"E0702", "tests/app: the disk is full, the folder is not writable"},
       {"E0704", "tests/app: a file that the run has read would be written"},
       {"E0801", "tests/session: a journal is read by `tranos replay`, not by a script"},

@@ -54,7 +54,7 @@ void ReadOptions(const std::string& options, Golden* golden) {
 // What one comment expects; `about` is the line that it speaks of.
 void ReadExpectation(const std::string& comment, std::uint32_t about, Golden* golden) {
   static const std::regex kDiagnostic(
-      R"((?:error|warning) ([EW][0-9]{4})(?: in (\S+):([0-9]+))?(?:: (.*))?)");
+      R"((?:error|warning) ([EW][0-9]{4})(?: in (line|\S.*?)[: ]([0-9]+))?(?:: (.*))?)");
   std::smatch match;
   if (comment.rfind("expect: ", 0) == 0) {
     golden->prints.push_back(comment.substr(8));
@@ -72,7 +72,7 @@ void ReadExpectation(const std::string& comment, std::uint32_t about, Golden* go
     }
     const bool elsewhere = match[2].matched;
     golden->diagnostics.push_back(
-        {match[1], match[4], elsewhere ? match[2].str() : "",
+        {match[1], match[4], elsewhere && match[2] != "line" ? match[2].str() : "",
          elsewhere ? static_cast<std::uint32_t>(std::stoul(match[3])) : about});
   }
 }
