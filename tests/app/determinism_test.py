@@ -20,7 +20,7 @@ group as vault {
   place line xy=0,0,0 dl=0,12,0 as axis
   set plane front
   place arc xy=0,0,0 xy=5,0,5 xy=10,0,0 as profile
-  construct surface projection of=profile dl=0,12,0
+  construct surface projection of=profile direction=[0,12,0]
 }
 co=3; fn=24
 place circle center radius=4 xy=5,6,3 as ring
@@ -76,6 +76,7 @@ class Determinism(harness.ProgramTest):
         reports = [self.tranos("run", path, "--json", "--no-output", "--threads", threads).out
                    for threads in (1, 8, 3)]
         self.assertEqual(len(set(reports)), 1)
+        self.assertEqual(self.tranos("run", path, "--no-output").status, 0)
         moved = self.write("elsewhere/scene.trn", SCENE)
         there = self.tranos("run", moved, "--json", "--no-output").report
         here = self.tranos("run", path, "--json", "--no-output").report

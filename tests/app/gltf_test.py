@@ -19,9 +19,11 @@ MODELS = {
     "text": 'aa=30 as=2\nplace text "Nave Αψίς {1+1}" xy=1,2,3\nplace text " " xy=0,0',
     "chains": "place line xy=0,0 xy=1,0 reset as a\nplace arc xy=1,0 xy=2,1 xy=1,2 as b\ncreate chain of=[a,b]\n"
               "place line xy=9,0 xy=10,0 xy=10,1 xy=9,0 reset as c\ncreate shape of=c",
-    "surfaces": "place arc xy=0,0,0 xy=5,0,5 xy=10,0,0 as p\nconstruct surface projection of=p keep=true dl=0,9,0\n"
-                "construct surface revolution of=p keep=true axis=[0,1,0] at=[5,-20,0]\n"
+    "surfaces": "place arc xy=0,0,0 xy=5,0,5 xy=10,0,0 as p\nconstruct surface projection of=p keep=true direction=[0,9,0]\n"
+                "construct surface revolution of=p keep=true from=[0,0,9] to=[9,0,9] angle=200deg\n"
                 "place line xy=0,20,0 xy=10,20,4 reset as q\nconstruct surface ruled of=[p,q]",
+    "edge surface": "place line xy=0,0,0 xy=4,0,1 xy=4,4,0 xy=0,4,1 xy=0,0,0 as sides\n"
+                    "construct surface edge of=sides",
     "instances": "define place pier\n h : length = 3m\n{ place circle center radius=0.3 xy=0,0 as foot\n"
                  "place line xy=0,0,0 dl=0,0,h }\nfor i = 0 to 9 { aa=10*i; place pier xy=3*i,0 }\n"
                  "as=[1,2,3]; place pier h=4m xy=0,9\nplace pier xy=0,0 as p\nmirror of=p xy=-1,0 xy=-1,1",
@@ -34,9 +36,9 @@ MODELS = {
     "transforms": "place line xy=0,0 xy=1,2 reset as a\ncopy of=a xy=0,0 xy=5,0 xy=9,0\naa=45; rotate copy of=a xy=0,0\n"
                   "as=2; scale of=a xy=0,0\nmirror copy of=a xy=0,0 xy=0,1\n"
                   "array rectangular of=a columns=4 rows=3 column_spacing=2m row_spacing=3m\n"
-                  "array polar of=a count=5 center=[0,0,0]",
-    "without area": "place arc xy=0,0,0 xy=5,0,5 xy=10,0,0 as p\n"
-                    "construct surface revolution of=p axis=[1,0,0] at=[0,0,0]",
+                  "array polar of=a count=5 xy=0,0,0",
+    "poles": "place arc xy=0,0,0 xy=5,0,5 xy=10,0,0 as p\n"
+                    "construct surface revolution of=p from=[0,0,0] to=[1,0,0]",
     "levels off": 'lv=2; place point xy=0,0\nlevel off 2\nlv=1; place point xy=1,1',
     "deleted": "place point xy=0,0 as a\nplace point xy=1,1\ndelete of=a",
     "exports": 'place point xy=0,0\nexport "before.glb"\nplace circle center radius=2 xy=0,0\nexport "more/after.glb"',
