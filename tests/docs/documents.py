@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Runs the examples of the documents and follows their links.
+"""Runs the examples of the documents and the scripts, and follows links.
 
 Usage: documents.py TRANOS ROOT. Prints a line for each breach; the status is 1 if there is one.
 """
@@ -17,6 +17,8 @@ from pathlib import Path
 
 DOCUMENTS = ["README.md", "CONTRIBUTING.md", "CHANGELOG.md", "docs/*.md", "*/README.md", "tests/*/README.md"]
 MAX_PICTURE_BYTES = 150_000
+MAX_SCRIPT_LINES = 60
+VERBATIM = "cruciform_dome.trn"
 SECONDS = 60
 
 FENCE = re.compile(r"^```(.*)$")
@@ -205,6 +207,32 @@ def check_readme(root):
         yield "README.md: its script is not scripts/round_temple.trn"
 
 
+def check_script(tranos, script):
+    """A script is in the one layout, runs, and checks itself; the paper's stays as it was printed."""
+    _, report = run(tranos, script, [])
+    if report["status"] != 0 or report["diagnostics"]:
+        yield f"{script}: does not run cleanly, status {report['status']}"
+    if script.name == VERBATIM:
+        return
+    if not report["asserts"]:
+        yield f"{script}: asserts nothing"
+    if subprocess.run([tranos, "fmt", "--check", script], capture_output=True, check=False).returncode != 0:
+        yield f"{script}: is not in the layout of tranos fmt"
+    if len(script.read_text(encoding="utf-8").splitlines()) > MAX_SCRIPT_LINES:
+        yield f"{script}: is longer than {MAX_SCRIPT_LINES} lines"
+
+
+def check_scripts(tranos, folder):
+    """Each script holds, and stands in the folder's README with its picture."""
+    listed = (folder / "README.md").read_text(encoding="utf-8")
+    for script in sorted(folder.glob("*.trn")):
+        yield from check_script(tranos, script)
+        if f"({script.name})" not in listed:
+            yield f"{folder}/README.md: {script.name} is not listed"
+        if not (folder.parent / "docs/images" / f"{script.stem}.png").exists():
+            yield f"docs/images: no picture of {script.name}"
+
+
 def check(tranos, root):
     documents = sorted({path for pattern in DOCUMENTS for path in root.glob(pattern)})
     if not documents:
@@ -214,6 +242,7 @@ def check(tranos, root):
         yield from check_links(path, text)
         yield from check_examples(tranos, path, text)
     yield from check_readme(root)
+    yield from check_scripts(tranos, root / "scripts")
 
 
 def main(tranos, root):

@@ -92,6 +92,27 @@ class Links(unittest.TestCase):
         self.assertEqual([], self.found("```\n[c](c.md)\n```\n"))
 
 
+class Scripts(unittest.TestCase):
+    def found(self, text, name="hall.trn"):
+        with tempfile.TemporaryDirectory() as folder:
+            script = Path(folder, name)
+            script.write_text(text, encoding="utf-8")
+            return [line.partition(": ")[2] for line in documents.check_script(TRANOS, script)]
+
+    def test_a_script_runs_and_checks_itself(self):
+        self.assertEqual([], self.found("let a = 1\nassert a == 1\n"))
+        self.assertEqual(["asserts nothing"], self.found("let a = 1\n"))
+        self.assertEqual(["does not run cleanly, status 4"], self.found("assert 1 == 2\n"))
+        self.assertIn("does not run cleanly, status 1", self.found("place\n"))
+
+    def test_a_script_is_in_the_one_layout_and_short(self):
+        self.assertEqual(["is not in the layout of tranos fmt"], self.found("assert   true\n"))
+        self.assertEqual(["is longer than 60 lines"], self.found("assert true\n" * 61))
+
+    def test_the_papers_script_stays(self):
+        self.assertEqual([], self.found("place line;xy=0,0,0;dl=1\n", documents.VERBATIM))
+
+
 if __name__ == "__main__":
     TRANOS = str(Path(sys.argv.pop(1)).resolve())
     unittest.main()
