@@ -45,6 +45,8 @@ DOORS = [
     ("linux/", ["app/*.cpp"]),
     ("fcntl.h", ["app/*.cpp"]),
     ("unistd.h", ["app/*.cpp"]),
+    ("dirent.h", ["app/*.cpp"]),
+    ("malloc.h", ["app/memory_limit.cpp"]),
     ("filesystem", ["app/*"]),
     ("fstream", ["app/*.cpp"]),
     ("iostream", ["app/*.cpp"]),
