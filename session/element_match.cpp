@@ -472,15 +472,28 @@ class ElementMatcher {
   std::vector<Ids> members_a_, members_b_;
 };
 
+ElementMatch MatchInThisOrder(const RunRecord& a, const StatementTree& tree_a, const RunRecord& b,
+                              const StatementTree& tree_b) {
+  Subjects x(a, tree_a), y(b, tree_b);
+  const PlaceMap places(tree_a, tree_b, MatchStatements(tree_a, tree_b), x, y);
+  return ElementMatcher(std::move(x), std::move(y), places).Run();
+}
+
 }  // namespace
 
 ElementMatch MatchElements(const RunRecord& a, const RunRecord& b) {
   constexpr int kDepth = 100'000;  // both were parsed before, within their own limits
   const StatementTree tree_a = MakeStatementTree(*a.result.sources, kDepth);
   const StatementTree tree_b = MakeStatementTree(*b.result.sources, kDepth);
-  Subjects x(a, tree_a), y(b, tree_b);
-  const PlaceMap places(tree_a, tree_b, MatchStatements(tree_a, tree_b), x, y);
-  return ElementMatcher(std::move(x), std::move(y), places).Run();
+  // Always matched in the same direction, so that the diff of b and a is that of a and b mirrored.
+  const auto key = [](const RunRecord& record, const StatementTree& tree) {
+    return std::pair{tree.statements[0].hash, record.result.outcome.state.model.hash};
+  };
+  if (key(a, tree_a) <= key(b, tree_b)) return MatchInThisOrder(a, tree_a, b, tree_b);
+  ElementMatch match = MatchInThisOrder(b, tree_b, a, tree_a);
+  std::swap(match.a, match.b);
+  std::swap(match.b_of_a, match.a_of_b);
+  return match;
 }
 
 }  // namespace tranos::session

@@ -44,7 +44,7 @@ class Comparer {
     if (!recorded_.empty())
       Stop(ReplayReport::kDiffers, Code::kReplayDiffers,
            "the replay ends here, and the journal goes on", {});
-    report_->steps = line_ - 2;
+    if (!stopped_) report_->steps = line_ - 3;  // all lines but the first and the last
   }
 
  private:

@@ -226,7 +226,7 @@ class StatementMatcher {
         const std::uint32_t parent = B(match_.b_of_a[child]).parent;
         if (parent != kNoStatement && FreeB(parent) && B(parent).head == A(i).head) ++votes[parent];
       }
-      for (const auto& [j, count] : votes) {
+      for (const auto& [j, count] : votes) {  // at most one has half of them, or two a half each
         if (2 * count >= A(i).children.size()) {
           Pair(i, j);
           break;
