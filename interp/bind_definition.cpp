@@ -104,6 +104,11 @@ std::optional<DefinedParameter> Binder::DeclareParameter(NodeId param) {
       if (const auto text = Constant(kids[i])) out.summary = text->string();
     }
   }
+  if (out.type == Type::kWord && out.words.empty()) {
+    Error(Code::kMissingValue, out.span, "the parameter `" + out.name + "` is a word, but its words are not listed", "",
+          "list them: " + out.name + " : word = shell in outline, shell; or make it a `string`");
+    return std::nullopt;
+  }
   return out;
 }
 

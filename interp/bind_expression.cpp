@@ -340,16 +340,32 @@ void Binder::CallInto(std::uint32_t target, NodeId id) {
   }
 }
 
+// The names in a function value that stand for something outside of it.
+std::vector<NodeId> Binder::FreeNames(NodeId lambda) const {
+  std::vector<NodeId> names;
+  std::deque<std::set<std::string>> hidden(1);
+  std::vector<std::pair<NodeId, std::size_t>> pending{{lambda, 0}};
+  while (!pending.empty()) {
+    const auto [at, own] = pending.back();
+    pending.pop_back();
+    const auto kids = Kids(at);
+    if (KindOf(at) == NodeKind::kLambda) {
+      hidden.push_back(hidden[own]);
+      hidden.back().insert(Text(kids[0]));
+      pending.emplace_back(kids[1], hidden.size() - 1);
+      continue;
+    }
+    if (KindOf(at) == NodeKind::kName && !hidden[own].contains(Text(at))) names.push_back(at);
+    for (NodeId kid : kids) pending.emplace_back(kid, own);
+  }
+  return names;
+}
+
 void Binder::LambdaInto(std::uint32_t target, NodeId id) {
   const auto kids = Kids(id);
   // What it uses of the unit around it is copied into it when it is made.
   std::map<std::string, std::uint32_t> captured;
-  std::vector<NodeId> pending{kids[1]};
-  while (!pending.empty()) {
-    const NodeId at = pending.back();
-    pending.pop_back();
-    for (NodeId kid : Kids(at)) pending.push_back(kid);
-    if (KindOf(at) != NodeKind::kName) continue;
+  for (NodeId at : FreeNames(id)) {
     const Symbol* symbol = Find(Text(at));
     if (!symbol || symbol->unit != builder_->id) continue;
     if (symbol->kind == Symbol::kRegister) captured[Text(at)] = symbol->index;
@@ -437,12 +453,21 @@ void Binder::NameInto(std::uint32_t target, NodeId id) {
     case Symbol::kElementName: {
       unit().outer_names.emplace_back(symbol->scope, symbol->index);
       std::uint8_t flags = symbol->as_list ? 2 : 0;
-      // In a function the loop's turn is out of reach: the name is then what it is as a whole.
-      if (symbol->turn_register >= 0 && symbol->unit == builder_->id) flags |= 1;
-      Emit({Op::kLoadName, flags, 0, target, symbol->scope, symbol->index}, SpanOf(id));
-      if (flags & 1) {
-        Emit({Op::kHalt, 0, 0, static_cast<std::uint32_t>(symbol->turn_register), 0, 0}, SpanOf(id));
+      if (symbol->turn_register < 0) {
+        Emit({Op::kLoadName, flags, 0, target, symbol->scope, symbol->index}, SpanOf(id));
+        return;
       }
+      // Where this turn's elements begin; a function or definition within the loop reads it there.
+      auto turn = static_cast<std::uint32_t>(symbol->turn_register);
+      if (symbol->unit != builder_->id) {
+        unit().outer.emplace_back(symbol->unit, turn);
+        const std::uint32_t copy = NewRegister();
+        Emit({Op::kLoadOuter, 0, 0, copy, symbol->unit, turn}, SpanOf(id));
+        turn = copy;
+      }
+      flags |= 1;
+      Emit({Op::kLoadName, flags, 0, target, symbol->scope, symbol->index}, SpanOf(id));
+      Emit({Op::kHalt, 0, 0, turn, 0, 0}, SpanOf(id));
       return;
     }
     case Symbol::kFunction:

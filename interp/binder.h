@@ -119,6 +119,7 @@ class Binder {
   void ConditionalInto(std::uint32_t target, NodeId id);
   void CallInto(std::uint32_t target, NodeId id);
   void LambdaInto(std::uint32_t target, NodeId id);
+  std::vector<NodeId> FreeNames(NodeId lambda) const;
   void StringInto(std::uint32_t target, NodeId id);
   void NameInto(std::uint32_t target, NodeId id);
   void ListInto(std::uint32_t target, const std::vector<NodeId>& items, NodeId whole);

@@ -360,7 +360,7 @@ Value Machine::LoadName(const Instruction& i, const Value* r, const Instruction&
   if (i.flags & 2) return Value::List(std::move(items));
   if (items.empty()) {
     Fail(Code::kNotYetBound, span, "`" + Printable(name) + "` names nothing yet", "",
-         "it is named only when the block with its `as` has run");
+         "it is named only when its `as` has run, and no longer when that was undone");
   }
   if (items.size() == 1) return items[0];
   return Value::List(std::move(items));
@@ -394,8 +394,17 @@ void Machine::CheckRange(const Instruction& i, const CodeUnit& unit, const Value
     inside = model::Same(own, aligned);
   }
   if (inside) return;
-  Fail(Code::kOutOfRange, at, "`" + name + "` is " + Format(value, measure, -1) + ", outside its range",
-       "expected " + Format(range, measure, -1), "", at == span ? std::vector<Note>{} : std::vector<Note>{{span, "declared here"}});
+  const auto shown = [&](const Value& item) {
+    return item.is_string() ? "\"" + Printable(item.string()) + "\"" : Format(item, measure, -1);
+  };
+  std::string expected;
+  if (range.is_list()) {
+    for (const Value& item : range.list()) expected += (expected.empty() ? "one of " : ", ") + shown(item);
+  } else {
+    expected = shown(range);
+  }
+  Fail(Code::kOutOfRange, at, "`" + name + "` is " + shown(value) + ", outside its range",
+       "expected " + expected, "", at == span ? std::vector<Note>{} : std::vector<Note>{{span, "declared here"}});
 }
 
 // A value that crosses into or out of a definition's body: its elements are geometry there, for their ids mean

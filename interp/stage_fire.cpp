@@ -142,7 +142,8 @@ void Stage::CheckRequired(Span span) const {
     if (active_.has_text && active_.row->string_key == key.name) continue;
     Fail(Code::kMissingValue, active_.span,
          "`" + std::string(active_.row->words) + "` needs `" + std::string(key.name) + "=`",
-         std::string(key.summary), "tranos help " + std::string(active_.row->words), {{span, "it would fire here"}});
+         std::string(key.summary), "tranos help " + std::string(active_.row->words),
+         span.begin == active_.span.begin ? std::vector<Note>{} : std::vector<Note>{{span, "it would fire here"}});
   }
 }
 
