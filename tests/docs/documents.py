@@ -34,6 +34,7 @@ class Block:
     line: int  # of its first line of text
     marks: list
     text: str
+    says: str = None  # what the program must say of it, to the letter
 
     def place(self, line=1):
         return f"{self.path}:{self.line + line - 1}"
@@ -49,7 +50,7 @@ class Expected:
 
 
 def blocks_of(path, text):
-    """The fenced blocks of a document whose first mark is trn."""
+    """The fenced blocks of a document whose first mark is trn; `text says` blocks belong to the one before."""
     found, inside = [], None
     for number, line in enumerate(text.splitlines(), 1):
         fence = FENCE.match(line)
@@ -58,6 +59,8 @@ def blocks_of(path, text):
         elif fence:
             if inside.marks[:1] == ["trn"]:
                 found.append(inside)
+            elif inside.marks == ["text", "says"] and found:
+                found[-1].says = inside.text
             inside = None
         elif inside is not None:
             inside.text += line + "\n"
@@ -98,14 +101,15 @@ def expected_of(block):
 
 
 def run(tranos, script, arguments):
-    """What the script printed, and its report."""
+    """What the script printed, what was said of it, and its report."""
 
     def call(*options):
         command = [tranos, "run", script.name, "--no-output", *options, *arguments]
         return subprocess.run(command, cwd=script.parent, capture_output=True, text=True, timeout=SECONDS, check=False)
 
     plain, report = call(), call("--json")
-    return plain.stdout.splitlines(), json.loads(report.stdout) if report.stdout else {"status": report.returncode}
+    told = json.loads(report.stdout) if report.stdout else {"status": report.returncode}
+    return plain.stdout.splitlines(), plain.stderr, told
 
 
 def matches(given, line, code, part):
@@ -147,10 +151,13 @@ def check_block(tranos, block, beside):
             Path(folder, name).write_text(text, encoding="utf-8")
         script = Path(folder, "example.trn")
         script.write_text(block.text, encoding="utf-8")
-        printed, report = run(tranos, script, expected.arguments)
+        printed, said, report = run(tranos, script, expected.arguments)
     if "later" in block.marks:
         return later_differences(block, report)
-    return differences(block, expected, printed, report)
+    found = differences(block, expected, printed, report)
+    if block.says is not None and block.says != said:
+        found.append(f"{block.place()}: the program says\n{said}")
+    return found
 
 
 def check_examples(tranos, path, text):
@@ -209,7 +216,7 @@ def check_readme(root):
 
 def check_script(tranos, script):
     """A script is in the one layout, runs, and checks itself; the paper's stays as it was printed."""
-    _, report = run(tranos, script, [])
+    _, _, report = run(tranos, script, [])
     if report["status"] != 0 or report["diagnostics"]:
         yield f"{script}: does not run cleanly, status {report['status']}"
     if script.name == VERBATIM:

@@ -63,6 +63,13 @@ class Examples(unittest.TestCase):
         text = example("let a = 5", "trn file=a.trn") + example('use "a.trn"\nassert a == 5')
         self.assertEqual([], findings(text))
 
+    def test_what_is_said_is_said_to_the_letter(self):
+        found = findings(example("let a = 3m + 1deg  # expect error E0301") + "```text says\nwell, well\n```\n")
+        self.assertEqual(1, len(found))
+        self.assertIn("error[E0301]", found[0])
+        text = found[0].partition("\n")[2]
+        self.assertEqual([], findings(example("let a = 3m + 1deg  # expect error E0301") + f"```text says\n{text}```\n"))
+
     def test_other_blocks_are_left_alone(self):
         self.assertEqual([], findings(example("rubbish", "text")))
 
