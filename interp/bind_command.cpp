@@ -169,7 +169,7 @@ bool Binder::BindWord(NodeId id, const Command* row) {
   std::string help = "values are given by key=, a variable's too";
   if (!in_text.empty() && (Find(word) || row->words == "print")) {
     help = in_text;
-  } else if (BeginsCommand(LowerCase(word))) {
+  } else if (!row || BeginsCommand(LowerCase(word))) {
     help = "a command starts a line or follows `;`";
   } else if (row) {
     if (const auto meant = DidYouMean(LowerCase(word), SplitWords(row->options))) {

@@ -135,6 +135,9 @@ Value NamedValue(const CallContext& context, const model::NamedElements& named, 
   for (const ElementPtr& element : named.elements)
     elements.push_back(Value::OfElement(map(element)));
   if (!named.is_list && elements.size() == 1) return elements[0];
+  if (!named.is_list && elements.empty()) {
+    throw OpFailure{Code::kNoLongerThere, "`" + Printable(named.name) + "` was deleted"};
+  }
   return Value::List(std::move(elements));
 }
 

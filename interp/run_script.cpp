@@ -23,7 +23,8 @@ std::shared_ptr<const Program> BindSource(const BindOptions& options, const Host
   if (result->diagnostics.has_errors()) return nullptr;
   Bound bound = Bind(result->sources, tree, options, host);
   result->undeclared = std::move(bound.undeclared);
-  for (const Diagnostic& diagnostic : bound.diagnostics.list()) result->diagnostics.Add(diagnostic);
+  result->diagnostics.Append(bound.diagnostics);
+  result->diagnostics.SortByPlace();
   return result->diagnostics.has_errors() ? nullptr : bound.program;
 }
 
@@ -59,8 +60,7 @@ ScriptResult RunScript(std::string path, std::string text, const BindOptions& bi
   const auto program = BindText(std::move(path), std::move(text), bind_options, host, &result);
   if (!program || !result.undeclared.empty()) return result;
   result.outcome = Run(*program, run_options, host);
-  for (const Diagnostic& diagnostic : result.outcome.diagnostics.list())
-    result.diagnostics.Add(diagnostic);
+  result.diagnostics.Append(result.outcome.diagnostics);
   result.ran = true;
   return result;
 }
