@@ -11,9 +11,12 @@ namespace {
 using Ids = std::vector<std::uint32_t>;
 using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 
-constexpr std::size_t kMostCells = 1 << 20;  // of a table of alignment
+constexpr std::size_t kMostCells = 1 << 20;       // of a table of equal ones
+constexpr std::size_t kMostLikenesses = 1 << 16;  // computed for one gap
+constexpr std::size_t kFew = 8;                   // statements that share a part
 constexpr double kAlikeBetweenNeighbours = 0.3;
 constexpr double kAlikeElsewhere = 0.6;
+constexpr double kMuchAlike = 0.7;  // before neighbours are looked at
 
 // The pairs that ascend in both, as many as possible.
 Pairs Ascending(const Pairs& pairs) {
@@ -122,6 +125,7 @@ class StatementMatcher {
     MatchBlocks(0, 0);
     MatchEqualAnywhere();
     MatchContainersByContent();
+    PairByRareItems(FreeOnesA(), FreeOnesB(), kMuchAlike);
     // Blocks that were matched by now, in order: their changed statements between the same
     // neighbours.
     for (std::uint32_t i = 0; i < a_.statements.size(); ++i) {
@@ -176,10 +180,6 @@ class StatementMatcher {
   }
   // Blocks that are alike, the most alike first.
   void PairContainers(const Ids& x, const Ids& y) {
-    struct Candidate {
-      double likeness;
-      std::uint32_t i, j;
-    };
     Ids blocks_x, blocks_y;
     for (const std::uint32_t i : x) {
       if (FreeA(i) && IsBlock(A(i))) blocks_x.push_back(i);
@@ -187,34 +187,29 @@ class StatementMatcher {
     for (const std::uint32_t j : y) {
       if (FreeB(j) && IsBlock(B(j))) blocks_y.push_back(j);
     }
-    if (blocks_x.size() * blocks_y.size() > kMostCells) return;
+    if (blocks_x.size() * blocks_y.size() > kMostLikenesses) {
+      PairByRareItems(blocks_x, blocks_y, kAlikeBetweenNeighbours);
+      return;
+    }
     std::vector<Candidate> candidates;
     for (const std::uint32_t i : blocks_x) {
-      for (const std::uint32_t j : blocks_y) {
-        const double likeness = Likeness(A(i), B(j));
-        if (likeness >= kAlikeBetweenNeighbours) candidates.push_back({likeness, i, j});
-      }
+      for (const std::uint32_t j : blocks_y) Consider(i, j, kAlikeBetweenNeighbours, &candidates);
     }
-    std::stable_sort(
-        candidates.begin(), candidates.end(),
-        [](const Candidate& p, const Candidate& q) { return p.likeness > q.likeness; });
-    for (const Candidate& candidate : candidates) {
-      if (FreeA(candidate.i) && FreeB(candidate.j)) MatchBlocks(candidate.i, candidate.j);
-    }
+    PairBest(std::move(candidates));
   }
   static bool IsBlock(const Statement& statement) {
     return statement.kind == Statement::kLoop || statement.kind == Statement::kBlock;
   }
 
-  void MatchEqualAnywhere() {
-    Ids x, y;
-    for (std::uint32_t i = 1; i < a_.statements.size(); ++i) {
-      if (FreeA(i)) x.push_back(i);
+  void MatchEqualAnywhere() { PairEqual(FreeOnesA(), FreeOnesB()); }
+  Ids FreeOnesA() const { return FreeOnes(match_.b_of_a); }
+  Ids FreeOnesB() const { return FreeOnes(match_.a_of_b); }
+  static Ids FreeOnes(const Ids& match) {
+    Ids out;
+    for (std::uint32_t i = 1; i < match.size(); ++i) {
+      if (match[i] == kNoStatement) out.push_back(i);
     }
-    for (std::uint32_t j = 1; j < b_.statements.size(); ++j) {
-      if (FreeB(j)) y.push_back(j);
-    }
-    PairEqual(x, y);
+    return out;
   }
   // A block that is free whose statements went to one free block is that block.
   void MatchContainersByContent() {
@@ -226,12 +221,11 @@ class StatementMatcher {
         const std::uint32_t parent = B(match_.b_of_a[child]).parent;
         if (parent != kNoStatement && FreeB(parent) && B(parent).head == A(i).head) ++votes[parent];
       }
-      for (const auto& [j, count] : votes) {  // at most one has half of them, or two a half each
-        if (2 * count >= A(i).children.size()) {
-          Pair(i, j);
-          break;
-        }
-      }
+      const auto best =
+          std::max_element(votes.begin(), votes.end(), [](const auto& p, const auto& q) {
+            return std::pair{p.second, q.first} < std::pair{q.second, p.first};
+          });
+      if (best != votes.end() && 2 * best->second >= A(i).children.size()) Pair(i, best->first);
     }
   }
 
@@ -283,8 +277,14 @@ class StatementMatcher {
       n = to_n + 1, m = to_m + 1;
     }
   }
-  void MatchGap(const Ids& x, const Ids& y) {
-    if (x.empty() || y.empty() || x.size() * y.size() > kMostCells) return;
+  void MatchGap(Ids x, Ids y) {
+    if (x.empty() || y.empty()) return;
+    if (x.size() * y.size() > kMostLikenesses) {
+      PairByRareItems(x, y, kAlikeBetweenNeighbours);
+      std::erase_if(x, [&](std::uint32_t i) { return !FreeA(i); });
+      std::erase_if(y, [&](std::uint32_t j) { return !FreeB(j); });
+    }
+    if (x.size() * y.size() > kMostLikenesses) return MatchLongGap(x, y);
     const std::size_t columns = y.size() + 1;
     std::vector<double> best((x.size() + 1) * columns, 0), alike(x.size() * y.size());
     for (std::size_t n = x.size(); n-- > 0;) {
@@ -308,40 +308,75 @@ class StatementMatcher {
       }
     }
   }
+  // Too long for a table of likenesses: in order, by command.
+  void MatchLongGap(const Ids& x, const Ids& y) {
+    std::vector<std::uint64_t> heads_x, heads_y;
+    for (const std::uint32_t i : x) heads_x.push_back(A(i).head);
+    for (const std::uint32_t j : y) heads_y.push_back(B(j).head);
+    for (const auto& [n, m] : CommonSubsequence(heads_x, heads_y)) {
+      if (Likeness(A(x[n]), B(y[m])) >= kAlikeBetweenNeighbours) PairChanged(x[n], y[m]);
+    }
+  }
   void PairChanged(std::uint32_t i, std::uint32_t j) {
-    if (IsBlock(A(i)))
+    if (IsBlock(A(i))) {
       MatchBlocks(i, j);
-    else
+    } else {
       Pair(i, j);
+    }
   }
 
   void MatchAlikeAnywhere() {
-    struct Candidate {
-      double likeness;
-      std::uint32_t i, j;
-    };
+    const Ids x = FreeOnesA(), y = FreeOnesB();
+    PairByRareItems(x, y, kAlikeElsewhere);
     std::unordered_map<std::uint64_t, Ids> free_b;
-    for (std::uint32_t j = 1; j < b_.statements.size(); ++j) {
+    for (const std::uint32_t j : y) {
       if (FreeB(j)) free_b[B(j).head].push_back(j);
     }
     std::vector<Candidate> candidates;
     std::size_t looked_at = 0;
-    for (std::uint32_t i = 1; i < a_.statements.size(); ++i) {
+    for (const std::uint32_t i : x) {
       if (!FreeA(i)) continue;
       const auto found = free_b.find(A(i).head);
       if (found == free_b.end()) continue;
-      for (const std::uint32_t j : found->second) {
-        if (++looked_at > kMostCells) break;
-        const double likeness = Likeness(A(i), B(j));
-        if (likeness >= kAlikeElsewhere) candidates.push_back({likeness, i, j});
-      }
+      looked_at += found->second.size();
+      if (looked_at > kMostLikenesses) break;
+      for (const std::uint32_t j : found->second) Consider(i, j, kAlikeElsewhere, &candidates);
     }
+    PairBest(std::move(candidates));
+  }
+
+  struct Candidate {
+    double likeness;
+    std::uint32_t i, j;
+  };
+  void Consider(std::uint32_t i, std::uint32_t j, double least,
+                std::vector<Candidate>* candidates) const {
+    const double likeness = Likeness(A(i), B(j));
+    if (likeness >= least) candidates->push_back({likeness, i, j});
+  }
+  void PairBest(std::vector<Candidate> candidates) {
     std::stable_sort(
         candidates.begin(), candidates.end(),
         [](const Candidate& p, const Candidate& q) { return p.likeness > q.likeness; });
     for (const Candidate& candidate : candidates) {
       if (FreeA(candidate.i) && FreeB(candidate.j)) PairChanged(candidate.i, candidate.j);
     }
+  }
+  // Statements of one command that share a part which few others have.
+  void PairByRareItems(const Ids& x, const Ids& y, double least) {
+    std::unordered_map<std::uint64_t, Ids> with_item;
+    for (const std::uint32_t j : y) {
+      for (const std::uint64_t item : B(j).items) with_item[item ^ B(j).head].push_back(j);
+    }
+    std::vector<Candidate> candidates;
+    for (const std::uint32_t i : x) {
+      for (const std::uint64_t item : A(i).items) {
+        const auto found = with_item.find(item ^ A(i).head);
+        if (found == with_item.end() || found->second.size() > kFew) continue;
+        for (const std::uint32_t j : found->second) Consider(i, j, least, &candidates);
+      }
+    }
+    PairBest(std::move(candidates));
   }
 
   const StatementTree& a_;

@@ -11,21 +11,33 @@ namespace {
 
 // Lines that do not depend on one another, each with its block closed.
 rc::Gen<std::string> Line() {
-  return rc::gen::map(rc::gen::tuple(rc::gen::inRange(0, 7), rc::gen::inRange(0, 4), rc::gen::inRange(1, 4)), [](const auto& drawn) {
-    const auto [kind, at, size] = drawn;
-    const std::string x = std::to_string(at), n = std::to_string(size);
-    switch (kind) {
-      case 0: return "place point xy=" + x + ",0";
-      case 1: return "place circle radius=" + n + " xy=" + x + ",1";
-      case 2: return "place line xy=" + x + ",0 dl=" + n + " dl=0," + n + " reset";
-      case 3: return "for i = 1 to " + n + " { place point xy=" + x + ",i }";
-      case 4: return "{ co=" + n + "; place block xy=" + x + ",0 dl=1," + n + " }";
-      case 5: return "group { place point xy=" + x + ",5; place circle radius=" + n + " xy=0,0 }";
-      default: return "place circle radius=" + n + " xy=" + x + ",9; copy of=last xy=0,0 dl=20,0 reset";
-    }
-  });
+  return rc::gen::map(
+      rc::gen::tuple(rc::gen::inRange(0, 7), rc::gen::inRange(0, 4), rc::gen::inRange(1, 4)),
+      [](const auto& drawn) {
+        const auto [kind, at, size] = drawn;
+        const std::string x = std::to_string(at), n = std::to_string(size);
+        switch (kind) {
+          case 0:
+            return "place point xy=" + x + ",0";
+          case 1:
+            return "place circle radius=" + n + " xy=" + x + ",1";
+          case 2:
+            return "place line xy=" + x + ",0 dl=" + n + " dl=0," + n + " reset";
+          case 3:
+            return "for i = 1 to " + n + " { place point xy=" + x + ",i }";
+          case 4:
+            return "{ co=" + n + "; place block xy=" + x + ",0 dl=1," + n + " }";
+          case 5:
+            return "group { place point xy=" + x + ",5; place circle radius=" + n + " xy=0,0 }";
+          default:
+            return "place circle radius=" + n + " xy=" + x +
+                   ",9; copy of=last xy=0,0 dl=20,0 reset";
+        }
+      });
 }
-rc::Gen<std::vector<std::string>> Lines() { return rc::gen::container<std::vector<std::string>>(Line()); }
+rc::Gen<std::vector<std::string>> Lines() {
+  return rc::gen::container<std::vector<std::string>>(Line());
+}
 
 std::string Joined(const std::vector<std::string>& lines) {
   std::string out;
@@ -49,7 +61,8 @@ RC_GTEST_PROP(DiffProperty, NothingDiffersFromItself, ()) {
 RC_GTEST_PROP(DiffProperty, TheOrderOfIndependentLinesIsNoDifference, ()) {
   auto lines = *Lines();
   const std::string before = Joined(lines);
-  for (std::size_t i = lines.size(); i > 1; --i) std::swap(lines[i - 1], lines[*rc::gen::inRange<std::size_t>(0, i)]);
+  for (std::size_t i = lines.size(); i > 1; --i)
+    std::swap(lines[i - 1], lines[*rc::gen::inRange<std::size_t>(0, i)]);
   RC_ASSERT(DiffOf(before, Joined(lines)).changes.empty());
 }
 
@@ -57,7 +70,8 @@ RC_GTEST_PROP(DiffProperty, AnInsertedElementIsTheOneThingAdded, ()) {
   auto lines = *Lines();
   const std::string before = Joined(lines);
   const auto at = *rc::gen::inRange<std::size_t>(0, lines.size() + 1);
-  lines.insert(lines.begin() + static_cast<std::ptrdiff_t>(at), "place circle radius=77 xy=-50,-50");
+  lines.insert(lines.begin() + static_cast<std::ptrdiff_t>(at),
+               "place circle radius=77 xy=-50,-50");
   RC_ASSERT(Summary(DiffOf(before, Joined(lines))) == "added circle\n");
   RC_ASSERT(Summary(DiffOf(Joined(lines), before)) == "removed circle\n");
 }
@@ -67,10 +81,12 @@ RC_GTEST_PROP(DiffProperty, EveryElementIsEqualOrInOneClass, ()) {
   const RunRecord a = RecordOf("a.trn", Joined(*Lines())), b = RecordOf("b.trn", Joined(*Lines()));
   const Difference difference = Diff(a, b);
   const auto counts = Counts(difference);
-  const std::size_t both = difference.equal + counts[ElementChange::kMoved] + counts[ElementChange::kChanged];
+  const std::size_t both =
+      difference.equal + counts[ElementChange::kMoved] + counts[ElementChange::kChanged];
   RC_ASSERT(both + counts[ElementChange::kAdded] == b.result.outcome.state.model.live);
   // An element that went into a group, or out of one, stands in one of the models alone.
-  RC_ASSERT(both + counts[ElementChange::kRemoved] <= a.result.outcome.state.model.live + b.result.outcome.state.model.live);
+  RC_ASSERT(both + counts[ElementChange::kRemoved] <=
+            a.result.outcome.state.model.live + b.result.outcome.state.model.live);
 }
 
 RC_GTEST_PROP(DiffProperty, TheOtherWayRoundAddedIsRemoved, ()) {

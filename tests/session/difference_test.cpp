@@ -32,12 +32,14 @@ TEST(Diff, TellsALengthBeforeAndAfter) {
 }
 
 TEST(Diff, MeasuresTheLargestDistanceOfAGrownCircle) {
-  const Difference difference = DiffOf("place circle radius=1 xy=0,0", "place circle radius=1.5 xy=0,0");
+  const Difference difference =
+      DiffOf("place circle radius=1 xy=0,0", "place circle radius=1.5 xy=0,0");
   EXPECT_THAT(Only(difference).largest_m.value(), DoubleNear(0.5, 1e-12));
 }
 
 TEST(Diff, TellsWhatIsTurnedAsMoved) {
-  const Difference difference = DiffOf("place shape xy=0,0 dl=4 dl=0,3 reset", "place shape xy=0,0 dl=0,4 dl=-3 reset");
+  const Difference difference =
+      DiffOf("place shape xy=0,0 dl=4 dl=0,3 reset", "place shape xy=0,0 dl=0,4 dl=-3 reset");
   const ElementChange& change = Only(difference);
   EXPECT_EQ(change.kind, ElementChange::kMoved);
   EXPECT_FALSE(change.by_m.has_value());
@@ -45,8 +47,10 @@ TEST(Diff, TellsWhatIsTurnedAsMoved) {
 }
 
 TEST(Diff, TellsParametersOfPlacedElementsWithTheirDefaults) {
-  const std::string define = "define place gate width : length = 2m { place block xy=0,0 xy=width,3 }\n";
-  const Difference difference = DiffOf(define + "place gate xy=0,0", define + "place gate width=2.5 xy=0,0");
+  const std::string define =
+      "define place gate width : length = 2m { place block xy=0,0 xy=width,3 }\n";
+  const Difference difference =
+      DiffOf(define + "place gate xy=0,0", define + "place gate width=2.5 xy=0,0");
   const ElementChange& change = Only(difference);
   ASSERT_EQ(change.parameters.size(), 1U);
   EXPECT_EQ(change.parameters[0].name, "width");
@@ -57,13 +61,16 @@ TEST(Diff, TellsParametersOfPlacedElementsWithTheirDefaults) {
 
 TEST(Diff, FollowsFilesThatAreUsed) {
   const std::string script = "use \"lib.trn\"\nplace gate xy=0,0\nplace point xy=9,9";
-  const auto a = RecordOf("a.trn", script, {}, {{"lib.trn", "define place gate { place block xy=0,0 xy=1,1 }"}});
-  const auto b = RecordOf("a.trn", script, {}, {{"lib.trn", "define place gate { place block xy=0,0 xy=1,2 }"}});
+  const auto a = RecordOf("a.trn", script, {},
+                          {{"lib.trn", "define place gate { place block xy=0,0 xy=1,1 }"}});
+  const auto b = RecordOf("a.trn", script, {},
+                          {{"lib.trn", "define place gate { place block xy=0,0 xy=1,2 }"}});
   EXPECT_EQ(Summary(Diff(a, b)), "changed gate\n");
 }
 
 TEST(Diff, CountsWhatIsEqual) {
-  const Difference difference = DiffOf("place point xy=0,0 xy=1,0 xy=2,0", "place point xy=0,0 xy=1,0 xy=2,5");
+  const Difference difference =
+      DiffOf("place point xy=0,0 xy=1,0 xy=2,0", "place point xy=0,0 xy=1,0 xy=2,5");
   EXPECT_EQ(difference.equal, 2U);
   EXPECT_EQ(DiffOf("place point xy=0,0", "place point xy=0,0").equal, 1U);
 }
@@ -75,16 +82,20 @@ TEST(Diff, OfNothingAndSomething) {
 }
 
 TEST(RenderText, SaysNameDistanceParametersMeasuresAndPlaces) {
-  const Difference difference = DiffOf("place circle radius=1 xy=0,0 as rim", "# new\nplace circle radius=2 xy=0,0 as rim");
-  EXPECT_EQ(RenderText(difference),
-            "changed  circle `rim` by up to 1 m: radius 1m -> 2m, length 6.28318531 -> 12.5663706 m, "
-            "area 3.14159265 -> 12.5663706 m2  [a.trn:1 -> b.trn:2]\n"
-            "0 added, 0 removed, 0 moved, 1 changed, 0 equal\n");
-  EXPECT_EQ(RenderText(DiffOf("place point xy=0,0", "place point  xy=0,0")), "no difference in effect\n");
+  const Difference difference =
+      DiffOf("place circle radius=1 xy=0,0 as rim", "# new\nplace circle radius=2 xy=0,0 as rim");
+  EXPECT_EQ(
+      RenderText(difference),
+      "changed  circle `rim` by up to 1 m: radius 1m -> 2m, length 6.28318531 -> 12.5663706 m, "
+      "area 3.14159265 -> 12.5663706 m2  [a.trn:1 -> b.trn:2]\n"
+      "0 added, 0 removed, 0 moved, 1 changed, 0 equal\n");
+  EXPECT_EQ(RenderText(DiffOf("place point xy=0,0", "place point  xy=0,0")),
+            "no difference in effect\n");
 }
 
 TEST(RenderJson, IsOneObjectInMetres) {
-  const auto json = nlohmann::json::parse(RenderJson(DiffOf("un=cm\nplace point xy=0,0 as p", "un=cm\nplace point xy=50,0 as p")));
+  const auto json = nlohmann::json::parse(
+      RenderJson(DiffOf("un=cm\nplace point xy=0,0 as p", "un=cm\nplace point xy=50,0 as p")));
   ASSERT_EQ(json["changes"].size(), 1U);
   const auto& change = json["changes"][0];
   EXPECT_EQ(change["change"], "moved");
@@ -97,12 +108,14 @@ TEST(RenderJson, IsOneObjectInMetres) {
 }
 
 model::ElementPtr Made(model::Geometry geometry) {
-  return model::MakeElement(0, std::move(geometry), std::make_shared<const model::Attributes>(), nullptr, {});
+  return model::MakeElement(0, std::move(geometry), std::make_shared<const model::Attributes>(),
+                            nullptr, {});
 }
 
 TEST(RigidDisplacement, IsOfTheSameShapeOnly) {
   const auto line = [](double length) {
-    return Made(std::make_shared<const geom::Curve>(geom::Line{geom::Vec3::Zero(), geom::Vec3(length, 0, 0)}));
+    return Made(std::make_shared<const geom::Curve>(
+        geom::Line{geom::Vec3::Zero(), geom::Vec3(length, 0, 0)}));
   };
   EXPECT_TRUE(RigidDisplacement(*line(1), *line(1)).has_value());
   EXPECT_FALSE(RigidDisplacement(*line(1), *line(1.001)).has_value());
@@ -119,7 +132,8 @@ TEST(RigidDisplacement, IsNoMirrorImage) {
 }
 
 TEST(LargestDistance, IsNothingBetweenThingsOfDifferentKinds) {
-  const auto line = Made(std::make_shared<const geom::Curve>(geom::Line{geom::Vec3::Zero(), geom::Vec3(1, 0, 0)}));
+  const auto line = Made(
+      std::make_shared<const geom::Curve>(geom::Line{geom::Vec3::Zero(), geom::Vec3(1, 0, 0)}));
   EXPECT_FALSE(LargestDistance(*line, *Made(model::Point{geom::Vec3::Zero()})).has_value());
 }
 

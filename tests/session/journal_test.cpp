@@ -19,18 +19,21 @@ std::vector<Json> LinesOf(const std::string& journal) {
   return lines;
 }
 
-constexpr const char* kScript = "place line xy=0,0 dl=10 as sill\nco=3\nplace circle radius=2 xy=1,1\n";
+constexpr const char* kScript =
+    "place line xy=0,0 dl=10 as sill\nco=3\nplace circle radius=2 xy=1,1\n";
 
 TEST(Journal, BeginsWithWhatTheRunWasStartedFrom) {
   RunSettings settings;
   settings.parameters = {{"height", "14m"}};
-  const auto lines = LinesOf(JournalOf("parameter height : length = 12m\nplace point xy=0,height", settings));
+  const auto lines =
+      LinesOf(JournalOf("parameter height : length = 12m\nplace point xy=0,height", settings));
   EXPECT_EQ(lines[0]["tranos_journal"], kJournalVersion);
   EXPECT_EQ(lines[0]["program"], "1.2.3");
   EXPECT_EQ(lines[0]["parameters"][0], Json({"height", "14m"}));
   EXPECT_EQ(lines[0]["limits"]["elements"], 1000000);
   EXPECT_EQ(lines[0]["sources"][0]["path"], "test.trn");
-  EXPECT_EQ(lines[0]["sources"][0]["text"], "parameter height : length = 12m\nplace point xy=0,height");
+  EXPECT_EQ(lines[0]["sources"][0]["text"],
+            "parameter height : length = 12m\nplace point xy=0,height");
 }
 
 TEST(Journal, HasALineForEachKeyInWithItsPlaceAndHashes) {
@@ -57,7 +60,8 @@ TEST(Journal, EndsWithTheModelOfTheRun) {
   EXPECT_EQ(lines.back()["end"], "ran");
   EXPECT_EQ(lines.back()["steps"], 8);
   EXPECT_EQ(lines.back()["elements"], 2);
-  EXPECT_EQ(lines.back()["model"], model::Hex(RecordOf("test.trn", kScript).result.outcome.state.model.hash));
+  EXPECT_EQ(lines.back()["model"],
+            model::Hex(RecordOf("test.trn", kScript).result.outcome.state.model.hash));
 }
 
 TEST(Journal, HoldsTheFilesThatWereUsedAndTheirHash) {
@@ -70,7 +74,8 @@ TEST(Journal, HoldsTheFilesThatWereUsedAndTheirHash) {
 }
 
 TEST(Journal, CountsColumnsInCharactersAlsoAlongOneLine) {
-  const auto lines = LinesOf(JournalOf("place text \"Grüße\" xy=0,0; place point xy=1,0\nplace point xy=2,0"));
+  const auto lines =
+      LinesOf(JournalOf("place text \"Grüße\" xy=0,0; place point xy=1,0\nplace point xy=2,0"));
   for (const Json& line : lines) {
     if (line.value("key_in", "") == "xy=1m,0m") {
       EXPECT_EQ(line["column"], 40);
@@ -101,7 +106,8 @@ TEST(Journal, OfAnEmptyScriptHasABeginningAndAnEnd) {
 }
 
 TEST(Journal, WritesThePartsOfADefinitionOnce) {
-  const auto lines = LinesOf(JournalOf("define place gate { place block xy=0,0 xy=1,1 }\nplace gate xy=0,0 xy=5,0"));
+  const auto lines = LinesOf(
+      JournalOf("define place gate { place block xy=0,0 xy=1,1 }\nplace gate xy=0,0 xy=5,0"));
   std::size_t with_parts = 0, placed = 0;
   for (const Json& line : lines) {
     if (!line.contains("edit") || !line["edit"].contains("added")) continue;
@@ -116,7 +122,8 @@ TEST(ReadJournal, TakesWhatTheWriterGives) {
   RunSettings settings;
   settings.hypothesis = "high";
   settings.limits.depth = 77;
-  const std::string text = JournalOf("hypothesis low { place point xy=0,0 }\nhypothesis high { place point xy=1,0 }", settings);
+  const std::string text = JournalOf(
+      "hypothesis low { place point xy=0,0 }\nhypothesis high { place point xy=1,0 }", settings);
   const auto journal = ReadJournal(text);
   ASSERT_TRUE(journal.has_value());
   EXPECT_EQ(journal->settings.hypothesis, "high");
@@ -164,7 +171,8 @@ TEST(ReadJournal, RefusesAHeaderWithMembersOfOtherTypes) {
   const Json header = Json::parse(text.substr(0, end));
   for (const auto& [key, value] : header.items()) {
     if (key == "library") continue;  // told, and not read
-    for (const Json& wrong : {Json(-1), Json(nullptr), Json("x"), Json::array({1}), Json::object()}) {
+    for (const Json& wrong :
+         {Json(-1), Json(nullptr), Json("x"), Json::array({1}), Json::object()}) {
       if (wrong.type() == value.type()) continue;
       Json changed = header;
       changed[key] = wrong;
@@ -176,7 +184,8 @@ TEST(ReadJournal, RefusesAHeaderWithMembersOfOtherTypes) {
 TEST(ReadJournal, RendersWhatIsWrongWithTheJournalsLine) {
   const auto journal = ReadJournal("no journal");
   ASSERT_FALSE(journal.has_value());
-  EXPECT_EQ(RenderText(journal.error(), "a\nb"), "error[E0801]: the file is no journal\n  --> a\\u{a}b:1\n");
+  EXPECT_EQ(RenderText(journal.error(), "a\nb"),
+            "error[E0801]: the file is no journal\n  --> a\\u{a}b:1\n");
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 
+#include <rapidcheck/gtest.h>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -18,7 +19,8 @@ namespace {
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-constexpr const char* kScript = "place line xy=0,0 dl=10\nplace circle radius=2 xy=1,1\nplace point xy=3,3\n";
+constexpr const char* kScript =
+    "place line xy=0,0 dl=10\nplace circle radius=2 xy=1,1\nplace point xy=3,3\n";
 
 ReplayReport ReplayOf(const std::string& text) {
   const auto journal = ReadJournal(text);
@@ -33,7 +35,6 @@ std::string Replaced(std::string text, const std::string& from, const std::strin
   return text;
 }
 
-
 TEST(Replay, OfAJournalIsEqual) {
   const ReplayReport report = ReplayOf(JournalOf(kScript));
   EXPECT_EQ(report.verdict, ReplayReport::kEqual);
@@ -42,12 +43,14 @@ TEST(Replay, OfAJournalIsEqual) {
 }
 
 TEST(Replay, ReadsNothingButWhatTheJournalHolds) {
-  const std::string journal = JournalOf("use \"lib/bay.trn\"\nplace point xy=bay,0", {}, {{"lib/bay.trn", "let bay = 3m"}});
+  const std::string journal =
+      JournalOf("use \"lib/bay.trn\"\nplace point xy=bay,0", {}, {{"lib/bay.trn", "let bay = 3m"}});
   EXPECT_EQ(ReplayOf(journal).verdict, ReplayReport::kEqual);
 }
 
 TEST(Replay, OfARunThatFailedFailsAlike) {
-  EXPECT_EQ(ReplayOf(JournalOf("place point xy=0,0\nplace circle radius=0 xy=0,0")).verdict, ReplayReport::kEqual);
+  EXPECT_EQ(ReplayOf(JournalOf("place point xy=0,0\nplace circle radius=0 xy=0,0")).verdict,
+            ReplayReport::kEqual);
 }
 
 TEST(Replay, UsesTheRecordedOptions) {
@@ -60,21 +63,24 @@ TEST(Replay, UsesTheRecordedOptions) {
 }
 
 TEST(Replay, StopsAtTheFirstStepThatDiffersAndSaysWhatDiffers) {
-  const std::string journal = Replaced(JournalOf(kScript), "\"end\":[10,0,0]", "\"end\":[10,0.25,0]");
+  const std::string journal =
+      Replaced(JournalOf(kScript), "\"end\":[10,0,0]", "\"end\":[10,0.25,0]");
   const ReplayReport report = ReplayOf(journal);
   EXPECT_EQ(report.verdict, ReplayReport::kDiffers);
   EXPECT_EQ(report.steps, 2U);
   ASSERT_EQ(report.findings.size(), 1U);
   EXPECT_EQ(report.findings[0].line, 4U);
   EXPECT_THAT(report.findings[0].message, HasSubstr("step 3 differs: dl=10m"));
-  EXPECT_THAT(report.findings[0].details[0], HasSubstr("edit.added[0].geometry.end[1]: recorded 0.25, now 0"));
+  EXPECT_THAT(report.findings[0].details[0],
+              HasSubstr("edit.added[0].geometry.end[1]: recorded 0.25, now 0"));
   EXPECT_THAT(report.findings[0].details[0], HasSubstr("by -0.25"));
 }
 
 TEST(Replay, TellsAnotherKeyIn) {
   const ReplayReport report = ReplayOf(Replaced(JournalOf(kScript), "radius=2m\"", "radius=3m\""));
   ASSERT_EQ(report.verdict, ReplayReport::kDiffers);
-  EXPECT_THAT(report.findings[0].details[0], HasSubstr("key_in: recorded radius=3m, now radius=2m"));
+  EXPECT_THAT(report.findings[0].details[0],
+              HasSubstr("key_in: recorded radius=3m, now radius=2m"));
 }
 
 TEST(Replay, TellsAHashThatNothingExplains) {
@@ -86,11 +92,13 @@ TEST(Replay, TellsAHashThatNothingExplains) {
   EXPECT_THAT(report.findings[0].details[0], HasSubstr("state: the hash differs"));
 }
 
-// As another machine might have recorded it: the last bits of a coordinate, and so all hashes after it.
+// As another machine might have recorded it: the last bits of a coordinate, and so all hashes after
+// it.
 TEST(Replay, IsEqualWithinToleranceWhereOnlyLastBitsDiffer) {
   std::string journal = JournalOf(kScript);
   journal = Replaced(journal, "\"end\":[10,0,0]", "\"end\":[10.0000000009,0,0]");
-  for (std::size_t at = journal.find("\"n\":3"); (at = journal.find("\"model\":\"", at)) != std::string::npos; at += 9) {
+  for (std::size_t at = journal.find("\"n\":3");
+       (at = journal.find("\"model\":\"", at)) != std::string::npos; at += 9) {
     char& digit = journal[at + 9];
     digit = digit == '0' ? '1' : '0';
   }
@@ -103,7 +111,8 @@ TEST(Replay, IsEqualWithinToleranceWhereOnlyLastBitsDiffer) {
 }
 
 TEST(Replay, ThatIsWithinToleranceStillStopsAtARealDifference) {
-  std::string journal = Replaced(JournalOf(kScript), "\"end\":[10,0,0]", "\"end\":[10.0000000009,0,0]");
+  std::string journal =
+      Replaced(JournalOf(kScript), "\"end\":[10,0,0]", "\"end\":[10.0000000009,0,0]");
   journal = Replaced(journal, "\"at\":[3,3,0]", "\"at\":[3,3.1,0]");
   const ReplayReport report = ReplayOf(journal);
   EXPECT_EQ(report.verdict, ReplayReport::kDiffers);
@@ -131,10 +140,12 @@ TEST(Replay, TellsAStepThatIsMissing) {
 }
 
 TEST(CompareLines, TakesNumbersWithinAKeyInAsNumbers) {
-  const auto close = CompareLines(R"({"n":1,"key_in":"xy=0.30000000000000004m,1m"})", R"({"n":1,"key_in":"xy=0.3m,1m"})");
+  const auto close = CompareLines(R"({"n":1,"key_in":"xy=0.30000000000000004m,1m"})",
+                                  R"({"n":1,"key_in":"xy=0.3m,1m"})");
   EXPECT_THAT(close.differing, IsEmpty());
   EXPECT_EQ(close.close, 1U);
-  const auto far = CompareLines(R"({"n":1,"key_in":"xy=0.31m,1m"})", R"({"n":1,"key_in":"xy=0.3m,1m"})");
+  const auto far =
+      CompareLines(R"({"n":1,"key_in":"xy=0.31m,1m"})", R"({"n":1,"key_in":"xy=0.3m,1m"})");
   EXPECT_EQ(far.differing.size(), 1U);
 }
 
@@ -142,6 +153,32 @@ TEST(CompareLines, NeverTakesCountsOrIdsForClose) {
   EXPECT_EQ(CompareLines(R"({"n":1,"ids":[4]})", R"({"n":1,"ids":[5]})").differing.size(), 1U);
   EXPECT_EQ(CompareLines(R"({"n":1,"ids":[4]})", R"({"n":1,"ids":[4,5]})").differing.size(), 1U);
   EXPECT_EQ(CompareLines(R"({"n":1})", R"({"n":1,"edit":{}})").differing.size(), 1U);
+}
+
+// Whatever a journal holds, reading and replaying it ends with a verdict.
+RC_GTEST_PROP(Replay, OfADamagedJournalEndsWithAVerdict, ()) {
+  std::string journal = JournalOf(kScript);
+  const int damages = *rc::gen::inRange(1, 5);
+  for (int i = 0; i < damages; ++i) {
+    const auto at = *rc::gen::inRange<std::size_t>(0, journal.size());
+    switch (*rc::gen::inRange(0, 3)) {
+      case 0:
+        journal[at] = *rc::gen::arbitrary<char>();
+        break;
+      case 1:
+        journal.erase(at, *rc::gen::inRange<std::size_t>(1, 40));
+        break;
+      default:
+        journal.insert(at, journal.substr(*rc::gen::inRange<std::size_t>(0, journal.size()), 30));
+    }
+  }
+  const auto read = ReadJournal(journal);
+  if (!read) {
+    RC_ASSERT(!RenderText(read.error(), "x.journal").empty());
+    return;
+  }
+  const ReplayReport report = Replay(*read);
+  RC_ASSERT(report.verdict == ReplayReport::kEqual || !report.findings.empty());
 }
 
 std::vector<std::filesystem::path> ScriptsOfPairs() {

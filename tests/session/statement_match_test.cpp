@@ -32,12 +32,14 @@ std::size_t Length(const std::vector<std::uint64_t>& a, const std::vector<std::u
 }
 
 RC_GTEST_PROP(CommonSubsequence, IsCommonAscendingAndAsLongAsPossible, ()) {
-  const auto letters = rc::gen::container<std::vector<std::uint64_t>>(rc::gen::inRange<std::uint64_t>(0, 5));
+  const auto letters =
+      rc::gen::container<std::vector<std::uint64_t>>(rc::gen::inRange<std::uint64_t>(0, 5));
   const auto a = *letters, b = *letters;
   const Pairs pairs = CommonSubsequence(a, b);
   for (std::size_t n = 0; n < pairs.size(); ++n) {
     RC_ASSERT(a[pairs[n].first] == b[pairs[n].second]);
-    if (n > 0) RC_ASSERT(pairs[n].first > pairs[n - 1].first && pairs[n].second > pairs[n - 1].second);
+    if (n > 0)
+      RC_ASSERT(pairs[n].first > pairs[n - 1].first && pairs[n].second > pairs[n - 1].second);
   }
   RC_ASSERT(pairs.size() == Length(a, b));
 }
@@ -54,12 +56,15 @@ TEST(CommonSubsequence, OfLongSequencesStaysUsable) {
 
 TEST(StatementTree, IsTheSameInAnyLayout) {
   const auto one = TreeOf("place line xy=0,0 dl=10\nfor i = 1 to 3 { place point xy=i,0 }");
-  const auto other = TreeOf("# plan\nPLACE LINE; xy = 0, 0\n dl=10 # sill\nfor i = 1 to 3 {\n\n place point\n xy=i,0\n}\n");
+  const auto other = TreeOf(
+      "# plan\nPLACE LINE; xy = 0, 0\n dl=10 # sill\nfor i = 1 to 3 {\n\n place point\n "
+      "xy=i,0\n}\n");
   EXPECT_EQ(one.statements[0].hash, other.statements[0].hash);
 }
 
 TEST(StatementTree, TellsOrderAndCaseOfNames) {
-  EXPECT_NE(TreeOf("let a = 1\nlet b = 2").statements[0].hash, TreeOf("let b = 2\nlet a = 1").statements[0].hash);
+  EXPECT_NE(TreeOf("let a = 1\nlet b = 2").statements[0].hash,
+            TreeOf("let b = 2\nlet a = 1").statements[0].hash);
   EXPECT_NE(TreeOf("let a = 1").statements[0].hash, TreeOf("let A = 1").statements[0].hash);
 }
 
@@ -86,27 +91,35 @@ std::string Counterpart(const std::string& a, const std::string& b, const std::s
   const StatementTree x = TreeOf(a), y = TreeOf(b);
   const auto match = MatchStatements(x, y);
   const std::uint32_t j = match.b_of_a[x.At(static_cast<std::uint32_t>(a.find(text)))];
-  return j == kNoStatement ? "none" : b.substr(y.statements[j].begin, y.statements[j].end - y.statements[j].begin);
+  return j == kNoStatement
+             ? "none"
+             : b.substr(y.statements[j].begin, y.statements[j].end - y.statements[j].begin);
 }
 
 TEST(MatchStatements, FollowsWhatIsMoved) {
-  EXPECT_EQ(Counterpart("place point xy=1,1\nplace circle xy=0,0 xy=1,0", "place circle xy=0,0 xy=1,0\nplace point xy=1,1",
-                        "place point"), "place point xy=1,1");
+  EXPECT_EQ(Counterpart("place point xy=1,1\nplace circle xy=0,0 xy=1,0",
+                        "place circle xy=0,0 xy=1,0\nplace point xy=1,1", "place point"),
+            "place point xy=1,1");
 }
 
 TEST(MatchStatements, FollowsWhatIsWrapped) {
-  EXPECT_EQ(Counterpart("place point xy=1,1", "if 1 < 2 { group { place point xy=1,1 } }", "place point"), "place point xy=1,1");
+  EXPECT_EQ(
+      Counterpart("place point xy=1,1", "if 1 < 2 { group { place point xy=1,1 } }", "place point"),
+      "place point xy=1,1");
 }
 
 TEST(MatchStatements, FollowsWhatIsChangedBetweenItsNeighbours) {
-  EXPECT_EQ(Counterpart("co=1\nplace circle radius=1 xy=0,0\nlv=2", "co=1\nplace circle radius=2 xy=0,0\nlv=2", "place circle"),
+  EXPECT_EQ(Counterpart("co=1\nplace circle radius=1 xy=0,0\nlv=2",
+                        "co=1\nplace circle radius=2 xy=0,0\nlv=2", "place circle"),
             "place circle radius=2 xy=0,0");
-  EXPECT_EQ(Counterpart("place circle radius=1 xy=0,0", "place arc xy=0,0", "place circle"), "none");
+  EXPECT_EQ(Counterpart("place circle radius=1 xy=0,0", "place arc xy=0,0", "place circle"),
+            "none");
 }
 
 TEST(MatchStatements, MatchesBlocksWithWhatIsInThem) {
   EXPECT_EQ(Counterpart("for i = 1 to 3 { place point xy=i,0; place circle xy=0,0 xy=i,0 }",
-                        "for i = 1 to 9 { place point xy=i,0; place circle xy=0,1 xy=i,0 }", "place circle"),
+                        "for i = 1 to 9 { place point xy=i,0; place circle xy=0,1 xy=i,0 }",
+                        "place circle"),
             "place circle xy=0,1 xy=i,0");
 }
 
