@@ -215,11 +215,11 @@ def check_readme(root):
 def check_script(tranos, script):
     """A script is in the one layout, runs, and checks itself; the paper's stays as it was printed."""
     _, _, report = run(tranos, script, [])
-    if report["status"] != 0 or report["diagnostics"]:
+    if report["status"] != 0 or report.get("diagnostics"):
         yield f"{script}: does not run cleanly, status {report['status']}"
     if script.name == VERBATIM:
         return
-    if not report["asserts"]:
+    if not report.get("asserts"):
         yield f"{script}: asserts nothing"
     if subprocess.run([tranos, "fmt", "--check", script], capture_output=True, check=False).returncode != 0:
         yield f"{script}: is not in the layout of tranos fmt"
