@@ -1,59 +1,58 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/console.h"
-#include "app/reference.h"
+#include "app/help_text.h"
 #include "app/status.h"
 #include "app/verbs.h"
-#include "interp/functions.h"
-#include "interp/program.h"
 
 namespace tranos::app {
+
+namespace {
+
+constexpr std::string_view kMore =
+    "`tranos help place arc` tells of one command, `tranos help place` of those that begin so.\n"
+    "Further lists: `tranos help statements`, `points`, `settings`, `functions`.\n"
+    "The language is told in docs/language.md, all of the above in docs/reference.md.\n";
+
+std::string Lower(std::string text) {
+  for (char& c : text) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c + 32);
+  }
+  return text;
+}
+
+// What is known of these words; "" if nothing is.
+std::string HelpOn(const std::string& words) {
+  if (words.empty()) return CommandList() + std::string(kMore);
+  if (words == "commands") return CommandList();
+  if (words == "statements") return StatementList();
+  if (words == "points") return PointList();
+  if (words == "settings") return SettingList();
+  if (words == "functions") return FunctionList();
+  if (const interp::Command* command = interp::FindCommand(words)) return HelpOf(*command);
+  if (std::string known = HelpOfWord(words); !known.empty()) return known;
+  return CommandsFrom(words);
+}
+
+}  // namespace
 
 int HelpVerb(const std::vector<std::string>& words) {
   std::string joined;
   for (const std::string& word : words) joined += (joined.empty() ? "" : " ") + word;
-  std::string lower = joined;
-  for (char& c : lower) {
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c + 32);
-  }
-  if (lower.empty()) {
-    PrintOut(CommandList() +
-             "\ntranos help COMMAND tells of one; tranos help functions, tranos help settings list "
-             "those.\n");
+  std::string lower = Lower(joined);
+  if (lower.ends_with('=')) lower.pop_back();  // `tranos help co=`
+  if (const std::string known = HelpOn(lower); !known.empty()) {
+    PrintOut(known);
     return kFine;
   }
-  if (lower == "functions" || lower == "settings") {
-    PrintOut(lower == "functions" ? FunctionList() : SettingList());
-    return kFine;
-  }
-  if (const interp::Command* command = interp::FindCommand(lower)) {
-    PrintOut(HelpOf(*command));
-    return kFine;
-  }
-  if (const int builtin = interp::FindBuiltin(joined); builtin >= 0) {
-    const interp::Builtin& row = interp::AllBuiltins()[static_cast<std::size_t>(builtin)];
-    PrintOut(std::string(row.usage) + "\n  " + std::string(row.summary) + "\n");
-    return kFine;
-  }
-  if (const interp::SettingRow* setting = interp::FindSetting(lower)) {
-    PrintOut(std::string(setting->key) + "=\n  " + std::string(setting->summary) + "\n");
-    return kFine;
-  }
-  // A beginning lists what goes on from it: `tranos help place`.
-  std::string list;
-  std::vector<std::string> known;
-  for (const interp::Command& command : interp::AllCommands()) {
-    known.emplace_back(command.words);
-    if (command.words.starts_with(lower + " ")) {
-      list += "  " + std::string(command.words) + ": " + std::string(command.summary) + "\n";
-    }
-  }
-  if (!list.empty()) {
-    PrintOut(list);
-    return kFine;
-  }
-  const auto meant = interp::DidYouMean(lower, known);
+  std::vector<std::string> commands;
+  for (const interp::Command& command : interp::AllCommands()) commands.emplace_back(command.words);
+  const auto meant = interp::DidYouMean(lower, commands);
+  const std::string about = meant ? "" : CommandsAbout(lower);
   PrintFailure("there is no command `" + interp::Printable(joined) + "`" +
-               (meant ? ": did you mean `" + *meant + "`?" : ""));
+               (meant           ? ": did you mean `" + *meant + "`?"
+                : about.empty() ? ": `tranos help` lists those there are"
+                                : "; these speak of it:"));
+  PrintError(about);
   return kCommandLineIsWrong;
 }
 

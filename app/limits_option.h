@@ -7,8 +7,8 @@
 
 namespace tranos::app {
 
-// Reads "steps=1000,memory=500M": k, M and G stand for thousands, millions and thousands of millions. Gives what
-// is wrong with the text, or nothing.
+// Reads "steps=1000,memory=500M": k, M and G stand for thousands, millions and thousands of
+// millions. Gives what is wrong with the text, or nothing.
 std::string ReadLimits(const std::string& text, interp::Limits* limits);
 
 }  // namespace tranos::app
