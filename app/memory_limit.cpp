@@ -43,14 +43,6 @@ void* AllocateOrNull(std::size_t size, std::size_t alignment) noexcept {
   }
 }
 
-void* AllocateOrNull(std::size_t size, std::size_t alignment) noexcept {
-  try {
-    return Allocate(size, alignment);
-  } catch (const std::bad_alloc&) {
-    return nullptr;
-  }
-}
-
 void Release(void* memory) noexcept {
   if (!memory) return;
   bytes_left.fetch_add(static_cast<std::int64_t>(malloc_usable_size(memory)),
@@ -80,20 +72,6 @@ void* operator new(std::size_t size, std::align_val_t alignment, const std::noth
 void* operator new[](std::size_t size, std::align_val_t alignment, const std::nothrow_t&) noexcept {
   return AllocateOrNull(size, static_cast<std::size_t>(alignment));
 }
-// Those that do not throw are ours, too: what a sanitizer would put here counts nothing, and sees
-// what it gave come back through our delete.
-void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
-  return AllocateOrNull(size, 0);
-}
-void* operator new[](std::size_t size, const std::nothrow_t&) noexcept {
-  return AllocateOrNull(size, 0);
-}
-void* operator new(std::size_t size, std::align_val_t alignment, const std::nothrow_t&) noexcept {
-  return AllocateOrNull(size, static_cast<std::size_t>(alignment));
-}
-void* operator new[](std::size_t size, std::align_val_t alignment, const std::nothrow_t&) noexcept {
-  return AllocateOrNull(size, static_cast<std::size_t>(alignment));
-}
 void operator delete(void* memory) noexcept { Release(memory); }
 void operator delete[](void* memory) noexcept { Release(memory); }
 void operator delete(void* memory, std::size_t) noexcept { Release(memory); }
@@ -104,14 +82,6 @@ void operator delete(void* memory, std::align_val_t) noexcept { Release(memory);
 void operator delete[](void* memory, std::align_val_t) noexcept { Release(memory); }
 void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { Release(memory); }
 void operator delete[](void* memory, std::size_t, std::align_val_t) noexcept { Release(memory); }
-void operator delete(void* memory, std::align_val_t, const std::nothrow_t&) noexcept {
-  Release(memory);
-}
-void operator delete[](void* memory, std::align_val_t, const std::nothrow_t&) noexcept {
-  Release(memory);
-}
-void operator delete(void* memory, const std::nothrow_t&) noexcept { Release(memory); }
-void operator delete[](void* memory, const std::nothrow_t&) noexcept { Release(memory); }
 void operator delete(void* memory, std::align_val_t, const std::nothrow_t&) noexcept {
   Release(memory);
 }
