@@ -15,7 +15,18 @@ namespace {
 using model::Element;
 using model::Value;
 
+// Whether a value is small enough to be written out: items in all, lists in lists.
+bool IsShort(const Value& value, int depth, int* items) {
+  if (++*items > 1000 || depth > 20) return false;
+  if (value.is_string()) return value.string().size() <= 1000;
+  if (!value.is_list()) return true;
+  return std::all_of(value.list().begin(), value.list().end(),
+                     [&](const Value& item) { return IsShort(item, depth + 1, items); });
+}
+
 std::string ValueText(const Value& value) {
+  int items = 0;
+  if (!IsShort(value, 0, &items)) return interp::Describe(value);
   if (!value.is_element()) return interp::KeyInText(value);
   const Element& element = *value.element();
   return element.name ? *element.name : model::TypeOf(element);
@@ -130,7 +141,11 @@ class Differ {
     if (subject.firing == kNoFiring) return std::nullopt;
     const interp::Span& span = record.firings[subject.firing].at;
     const interp::SourceText& file = record.result.sources->files[span.file];
-    return SourcePlace{file.path, file.PlaceOf(span.begin).line};
+    SourcePlace place{file.path, file.PlaceOf(span.begin).line};
+    for (const Value& turn : record.firings[subject.firing].turns) {
+      place.turns.push_back(ValueText(turn));
+    }
+    return place;
   }
 
   void NotePair(const Subject& earlier, const Subject& later) {

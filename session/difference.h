@@ -24,6 +24,7 @@ struct ParameterChange {
 struct SourcePlace {
   std::string path;
   std::uint32_t line = 0;
+  std::vector<std::string> turns = {};  // what the variable of each loop around it stood for
 };
 
 struct ElementChange {

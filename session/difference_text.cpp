@@ -23,7 +23,12 @@ std::string Digits(double number) {
 }
 
 std::string PlaceText(const std::optional<SourcePlace>& place) {
-  return place ? interp::Printable(place->path) + ":" + std::to_string(place->line) : "";
+  if (!place) return "";
+  std::string out = interp::Printable(place->path) + ":" + std::to_string(place->line);
+  for (std::size_t i = 0; i < place->turns.size(); ++i) {
+    out += (i == 0 ? " turn " : ", ") + interp::Printable(place->turns[i]);
+  }
+  return out;
 }
 
 std::string Value(const std::string& text) {
@@ -83,7 +88,10 @@ void WritePlace(std::string_view key, const std::optional<SourcePlace>& place, J
     out->Null();
     return;
   }
-  out->Open('{').Key("path").String(place->path).Key("line").Integer(place->line).Close('}');
+  out->Open('{').Key("path").String(place->path).Key("line").Integer(place->line);
+  out->Key("turns").Open('[');
+  for (const std::string& turn : place->turns) out->String(turn);
+  out->Close(']').Close('}');
 }
 
 void WriteText(std::string_view key, const std::string& text, JsonText* out) {

@@ -2,7 +2,6 @@
 #include "session/journal_reader.h"
 
 #include <algorithm>
-#include <limits>
 #include <nlohmann/json.hpp>
 
 namespace tranos::session {
@@ -11,6 +10,9 @@ namespace {
 
 using interp::Code;
 using Json = nlohmann::json;
+
+// As on the command line: deeper nesting might not fit the machine's stack.
+constexpr std::uint64_t kDeepest = 1000;
 
 tl::unexpected<JournalFinding> Broken(std::uint64_t line, std::string message) {
   return tl::make_unexpected(JournalFinding{Code::kBrokenJournal, line, std::move(message)});
@@ -36,9 +38,7 @@ bool ReadLimits(const Json& header, interp::Limits* limits) {
     *target = number->get<std::uint64_t>();
   }
   const Json* depth = Member(*object, "depth", Json::value_t::number_unsigned);
-  if (!depth ||
-      depth->get<std::uint64_t>() > static_cast<std::uint64_t>(std::numeric_limits<int>::max()))
-    return false;
+  if (!depth || depth->get<std::uint64_t>() > kDeepest) return false;
   limits->depth = depth->get<int>();
   return true;
 }

@@ -59,6 +59,17 @@ TEST(Diff, TellsParametersOfPlacedElementsWithTheirDefaults) {
   EXPECT_THAT(change.before.area_m2.value(), DoubleNear(6, 1e-12));
 }
 
+TEST(Diff, DescribesWhatIsTooLongToWrite) {
+  const std::string define =
+      "define place row marks : list of number = [0] { for x in marks { place point xy=x,0 } }\n";
+  const Difference difference = DiffOf(define + "place row marks=[1, 2] xy=0,0",
+                                       define + "place row marks=range(1, 2000) xy=0,0");
+  const ElementChange& change = Only(difference);
+  ASSERT_EQ(change.parameters.size(), 1U);
+  EXPECT_EQ(change.parameters[0].before, "[1,2]");
+  EXPECT_THAT(change.parameters[0].after, testing::StartsWith("a list of "));
+}
+
 TEST(Diff, FollowsFilesThatAreUsed) {
   const std::string script = "use \"lib.trn\"\nplace gate xy=0,0\nplace point xy=9,9";
   const auto a = RecordOf("a.trn", script, {},
@@ -91,6 +102,11 @@ TEST(RenderText, SaysNameDistanceParametersMeasuresAndPlaces) {
       "0 added, 0 removed, 0 moved, 1 changed, 0 equal\n");
   EXPECT_EQ(RenderText(DiffOf("place point xy=0,0", "place point  xy=0,0")),
             "no difference in effect\n");
+}
+
+TEST(RenderText, SaysTheTurnOfEachLoop) {
+  const std::string loops = "for i = 1 to 2 { for j = 4 to 5 { place point xy=i,j } }";
+  EXPECT_THAT(RenderText(DiffOf("", loops)), HasSubstr("added    point  [b.trn:1 turn 2, 4]\n"));
 }
 
 TEST(RenderJson, IsOneObjectInMetres) {

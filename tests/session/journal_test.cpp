@@ -181,6 +181,14 @@ TEST(ReadJournal, RefusesAHeaderWithMembersOfOtherTypes) {
   }
 }
 
+TEST(ReadJournal, RefusesADepthThatTheStackMightNotHold) {
+  RunSettings settings;
+  settings.limits.depth = 1000;
+  EXPECT_TRUE(ReadJournal(JournalOf(kScript, settings)).has_value());
+  settings.limits.depth = 1001;
+  EXPECT_EQ(CodeOf(JournalOf(kScript, settings)), interp::Code::kBrokenJournal);
+}
+
 TEST(ReadJournal, RendersWhatIsWrongWithTheJournalsLine) {
   const auto journal = ReadJournal("no journal");
   ASSERT_FALSE(journal.has_value());
