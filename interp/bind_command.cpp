@@ -240,7 +240,8 @@ void Binder::UnknownKey(NodeId word, const Command* row) {
   } else if (row) {
     help = "tranos help " + std::string(row->words);
   } else {
-    help = "start a command first, or use a setting: co lc wt lv aa as az mt ev tol fn lt un";
+    help = "`let " + Printable(Text(word)) + " = …` binds a value; the settings are";
+    for (const SettingRow& setting : AllSettings()) help += " " + std::string(setting.key);
   }
   Error(Code::kUnknownKey, SpanOf(word),
         row ? "neither `" + std::string(row->words) + "` nor the settings have a key `" + Printable(key) + "`"

@@ -119,6 +119,11 @@ void Binder::PredeclareDefinition(NodeId id) {
     definition.words += (definition.words.empty() ? "" : " ") + Lower(word);
   }
   definition.span = SpanOf(kids[0]);
+  if (definition.words == "place") {
+    Error(Code::kReservedName, definition.span, "a definition's words are `place` and what is placed", "",
+          "define place dome");
+    return;
+  }
   if (definition.words.rfind("place ", 0) != 0) {
     Error(Code::kReservedName, definition.span, "a definition's words begin with `place`", "",
           "define place " + definition.words);

@@ -55,7 +55,7 @@ struct Example {
 
 // Where in the key-ins an error of a command lies.
 struct Where {
-  enum Kind : std::uint8_t { kCommand, kKey, kPoint, kChosen, kString } kind = kCommand;
+  enum Kind : std::uint8_t { kCommand, kKey, kPoint, kChosen } kind = kCommand;
   int index = 0;          // of the point or the chosen element
   std::string_view key;   // of kKey
 };
@@ -75,8 +75,6 @@ struct Answers {
   std::vector<bool> answered;                  // which prompts a data point answered (a key may stand for one)
   std::vector<model::ElementPtr> chosen;       // of=, or selection and picks; current versions
   std::vector<std::string> words;              // option words and names, as written
-  std::string string;                          // a bare string; "" if none
-  bool has_string = false;
   std::vector<std::pair<std::string_view, model::Value>> keys;  // those given
   bool first = true;  // the first firing since the command started
 
@@ -114,7 +112,7 @@ struct Command {
   std::span<const Key> keys = {};
   std::string_view options = {};   // "wireframe|hidden|phong|antialias": its option words
   std::string_view asks = {};      // a name it asks for in bare words: "level"
-  std::string_view string_key = {};  // what a bare string means: "file"
+  std::string_view string_key = {};  // the key that a bare string stands for: "file"
   std::span<const Example> examples = {};
   CommandResult (*execute)(const model::State&, const Answers&) = nullptr;  // null: E0001
   HistoryStep history = HistoryStep::kNone;

@@ -246,6 +246,7 @@ std::string ParseState::DescribeNow() const {
 std::string ParseState::HelpForNow() const {
   const bool starts_line = at_ == 0 || tokens_[at_ - 1].kind == TokenKind::kNewline;
   if (At(Keyword::kThen)) return "`if` first in a statement takes a block: if … { … }";
+  if (TextOf(Now()) == "to") return "`for i = 1 to 3` counts; `for x in LIST` goes through a list";
   if (At(Keyword::kElse)) return "`else` stands on the line of the `}`";
   if (At(Keyword::kNot) || At(Keyword::kIf)) return "put that part in parentheses";
   switch (Now().kind) {

@@ -78,8 +78,6 @@ void Stage::Start(const Command* row, const Definition* definition, Span span) {
   active_.keys.resize(row->keys.size());
   active_.words.clear();
   active_.word_spans.clear();
-  active_.has_text = false;
-  active_.text.clear();
   active_.picks.clear();
   active_.firings = 0;
   active_.selected = false;
@@ -95,12 +93,11 @@ void Stage::Option(const std::string& word, Span span) {
   if (links_.options) Tell(word, span, nullptr, {});
 }
 
+// A bare string is the key that it stands for.
 void Stage::BareString(const std::string& text, Span span) {
-  if (!active_.row) Fail(Code::kNoCommand, span, "a string belongs to a command that has ended");
-  active_.text = text;
-  active_.text_span = span;
-  active_.has_text = true;
-  if (links_.options) Tell(KeyInText(Value::String(text)), span, nullptr, {});
+  std::uint32_t key = 0;
+  while (active_.row && key < active_.row->keys.size() && active_.row->keys[key].name != active_.row->string_key) ++key;
+  Parameter(key, Value::String(text), span);
 }
 
 namespace {

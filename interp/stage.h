@@ -111,9 +111,6 @@ class Stage {
     std::vector<KeyAnswer> keys;
     std::vector<std::string> words;
     std::vector<Span> word_spans;
-    std::string text;
-    Span text_span;
-    bool has_text = false;
     std::vector<model::ElementId> picks;
     int firings = 0;
     bool selected = false;  // a firing has left something chosen: the next works on that

@@ -39,9 +39,6 @@ Span Stage::SpanOf(const Where& where) const {
     case Where::kChosen:
       if (const KeyAnswer* key = FindOf()) return key->span;
       break;
-    case Where::kString:
-      if (active_.has_text) return active_.text_span;
-      break;
   }
   return active_.span;
 }
@@ -123,8 +120,6 @@ Answers Stage::MakeAnswers(Span span) const {
   answers.answered = active_.answered;
   if (TakesChosen(*active_.row)) answers.chosen = Chosen(span);
   answers.words = active_.words;
-  answers.string = active_.text;
-  answers.has_string = active_.has_text;
   for (std::size_t i = 0; i < active_.keys.size(); ++i) {
     if (active_.keys[i].given) answers.keys.emplace_back(active_.row->keys[i].name, active_.keys[i].value);
   }
@@ -139,7 +134,6 @@ void Stage::CheckRequired(Span span) const {
     const bool measured = std::any_of(active_.measures.begin(), active_.measures.end(),
                                       [&](const auto& measure) { return measure.first == key.name; });
     if (measured) continue;
-    if (active_.has_text && active_.row->string_key == key.name) continue;
     Fail(Code::kMissingValue, active_.span,
          "`" + std::string(active_.row->words) + "` needs `" + std::string(key.name) + "=`",
          std::string(key.summary), "tranos help " + std::string(active_.row->words),
@@ -186,8 +180,12 @@ void Stage::Fire(Span span) {
   for (const std::string& line : result->messages) {
     if (links_.host->print) links_.host->print(line);
   }
+  if (!links_.outputs && !result->edit.outputs.empty()) {
+    Fail(Code::kMisplaced, active_.span, "a definition's body draws no picture and writes no file", "",
+         "`" + std::string(active_.row->words) + "` stands in the script");
+  }
   if (links_.outputs) {
-    const Span named = active_.has_text ? active_.text_span : SpanOf({Where::kKey, 0, "file"});
+    const Span named = SpanOf({Where::kKey, 0, "file"});
     for (model::OutputRequest& output : result->edit.outputs) {
       links_.outputs->push_back(output);
       links_.output_spans->push_back(named);
@@ -378,12 +376,12 @@ void Stage::End(Span span, bool is_reset) {
 void Stage::FireHistory(Span span) {
   const HistoryStep step = active_.row->history;
   const KeyAnswer* key = FindKey("name");
-  const std::string name = key ? key->value.string() : active_.text;
+  const std::string name = key ? key->value.string() : "";
   if (step == HistoryStep::kMark) {
     marks_.emplace_back(name, history_.size());
   } else if (step == HistoryStep::kRedo) {
     Redo(span);
-  } else if (key || active_.has_text) {
+  } else if (key) {
     UndoToMark(name, span);
   } else {
     Undo(span);

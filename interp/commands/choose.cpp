@@ -136,7 +136,7 @@ Found InFence(const State& state, const Answers& answers) {
 tl::expected<std::vector<std::string>, CommandError> NamesAsked(const Answers& answers,
                                                                 std::string_view key) {
   std::vector<std::string> names = answers.words;
-  const std::string given = StringAnswer(answers, key);
+  const std::string given = answers.Text(key);
   if (!given.empty()) names.push_back(given);
   if (!names.empty()) return names;
   return Fail({.code = Code::kMissingValue,
@@ -156,7 +156,6 @@ bool EveryLeaf(const Element& element, const std::vector<std::string>& names, F&
 }
 
 Where NameWhere(const Answers& answers, std::string_view key) {
-  if (answers.has_string) return {Where::kString, 0, {}};
   return answers.Has(key) ? Where{Where::kKey, 0, key} : Where{};
 }
 

@@ -140,10 +140,6 @@ std::string NameForMessage(const model::Element& element) {
   return fmt::format("{} {}", vowel ? "an" : "a", type);
 }
 
-std::string StringAnswer(const Answers& answers, std::string_view key) {
-  return answers.has_string ? answers.string : answers.Text(key);
-}
-
 std::string InWords(double length_m, const model::Settings& settings) {
   struct Unit {
     std::string_view name;

@@ -39,8 +39,6 @@ tl::expected<std::vector<geom::Curve>, CommandError> CurvesOf(const Answers& ans
                                                               std::string_view what);
 // How an element is named in a message: "the line `sill`", "a line".
 std::string NameForMessage(const model::Element& element);
-// The bare string, or the key that it stands for.
-std::string StringAnswer(const Answers& answers, std::string_view key);
 // A length in words, in the working unit: "2.31 m".
 std::string InWords(double length_m, const model::Settings& settings);
 

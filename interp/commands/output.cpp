@@ -25,15 +25,11 @@ std::string Extension(std::string_view file) {
   return extension;
 }
 
-Where FileWhere(const Answers& answers) {
-  return answers.has_string ? Where{Where::kString, 0, {}} : Where{Where::kKey, 0, "file"};
-}
-
-CommandError UnknownFormat(std::string_view file, std::string_view known, const Answers& answers) {
+CommandError UnknownFormat(std::string_view file, std::string_view known) {
   return {.code = Code::kUnknownFormat,
           .message = fmt::format("`{}` names no known format", Printable(file)),
           .label = fmt::format("the extension chooses the format: {}", known),
-          .where = FileWhere(answers)};
+          .where = {Where::kKey, 0, "file"}};
 }
 
 // Width and height as given; nothing if they are no size of a picture.
@@ -51,9 +47,9 @@ std::optional<std::pair<int, int>> SizeOf(const model::Value& value) {
 }
 
 CommandResult Render(const State& state, const Answers& answers) {
-  model::RenderRequest request{state.model, *state.drawing.view, StringAnswer(answers, "file")};
+  model::RenderRequest request{state.model, *state.drawing.view, answers.Text("file")};
   if (!request.file.empty() && Extension(request.file) != "png") {
-    return Fail(UnknownFormat(request.file, "png", answers));
+    return Fail(UnknownFormat(request.file, "png"));
   }
   if (const model::Value* given = answers.Find("size")) {
     const auto size_px = SizeOf(*given);
@@ -71,26 +67,26 @@ CommandResult Render(const State& state, const Answers& answers) {
 }
 
 CommandResult Export(const State& state, const Answers& answers) {
-  const std::string file = StringAnswer(answers, "file");
+  const std::string file = answers.Text("file");
   if (file.empty()) {
     return Fail({.code = Code::kMissingValue,
                  .message = "the file's name is missing",
                  .help = "export \"church.glb\""});
   }
-  if (Extension(file) != "glb") return Fail(UnknownFormat(file, "glb", answers));
+  if (Extension(file) != "glb") return Fail(UnknownFormat(file, "glb"));
   Fired fired;
   fired.edit.outputs.emplace_back(model::ExportRequest{state.model, file});
   return fired;
 }
 
 CommandResult Print(const State&, const Answers& answers) {
-  if (!answers.has_string && !answers.Has("text")) {
+  if (!answers.Has("text")) {
     return Fail({.code = Code::kMissingValue,
                  .message = "what is to be printed?",
                  .help = "print \"the nave is {nave.length} long\""});
   }
   Fired fired;
-  fired.messages.push_back(StringAnswer(answers, "text"));
+  fired.messages.push_back(answers.Text("text"));
   return fired;
 }
 

@@ -179,12 +179,12 @@ CommandResult PlaceShape(const State& state, const Answers& answers) {
 CommandResult PlaceText(const State& state, const Answers& answers) {
   if (auto error = TooFar(answers)) return Fail(*error);
   const model::Settings& settings = *state.drawing.settings;
-  const std::string content = StringAnswer(answers, "text");
+  const std::string content = answers.Text("text");
   if (content.empty()) {
     return Fail({.code = Code::kMissingValue,
                  .message = "the text is missing",
                  .help = "place text \"nave\" xy=0,0,0",
-                 .where = {answers.has_string ? Where::kString : Where::kCommand, 0, {}}});
+                 .where = AtKey("text")});
   }
   const double height_m = answers.Number("height", 1) * settings.scale.y();
   if (!(height_m > geom::kCoincident_m && height_m <= kFarthest_m)) {

@@ -65,7 +65,7 @@ CommandResult TurnView(const State& state, const Answers& answers) {
 template <bool kOn>
 CommandResult SwitchLevel(const State& state, const Answers& answers) {
   std::vector<std::string> levels = answers.words;
-  const std::string given = StringAnswer(answers, "level");
+  const std::string given = answers.Text("level");
   if (!given.empty()) levels.push_back(given);
   if (levels.empty()) {
     return Fail({.code = Code::kMissingValue, .message = "which level?", .help = "level off roof"});
