@@ -20,40 +20,68 @@ double FiniteOr(double value, const char* message) {
   return value;
 }
 
-// Terms with the same source added, those that cancel left out.
-Terms Merged(Terms terms) {
-  std::stable_sort(terms.begin(), terms.end(),
-                   [](const auto& a, const auto& b) { return a.first < b.first; });
+// Each scaled by its own factor; both are sorted by source.
+Terms Merged(const Terms& a, double factor_a, const Terms& b, double factor_b) {
   Terms merged;
-  for (const auto& [source, slope] : terms) {
-    if (merged.empty() || merged.back().first != source) {
-      if (!merged.empty() && merged.back().second == 0) merged.pop_back();
-      merged.emplace_back(source, slope);
+  merged.reserve(a.size() + b.size());
+  const auto add = [&](model::SourceId source, double slope) {
+    if (slope != 0) merged.emplace_back(source, FiniteOr(slope, "the result's deviation is not finite"));
+  };
+  auto from_a = a.begin();
+  auto from_b = b.begin();
+  while (from_a != a.end() || from_b != b.end()) {
+    if (from_b == b.end() || (from_a != a.end() && from_a->first < from_b->first)) {
+      add(from_a->first, factor_a * from_a->second);
+      ++from_a;
+    } else if (from_a == a.end() || from_b->first < from_a->first) {
+      add(from_b->first, factor_b * from_b->second);
+      ++from_b;
     } else {
-      merged.back().second += slope;
+      add(from_a->first, factor_a * from_a->second + factor_b * from_b->second);
+      ++from_a;
+      ++from_b;
     }
   }
-  if (!merged.empty() && merged.back().second == 0) merged.pop_back();
-  for (const auto& [source, slope] : merged) {
-    FiniteOr(slope, "the result's deviation is not finite");
-  }
   return merged;
+}
+
+struct Scaled {
+  const Terms* terms;
+  double factor;
+};
+
+// By halves, so that the sum of many takes little more than their terms.
+Terms SumOf(std::span<const Scaled> parts) {
+  static const Terms kNone;
+  if (parts.empty()) return {};
+  if (parts.size() == 1) return Merged(*parts[0].terms, parts[0].factor, kNone, 0);
+  if (parts.size() == 2) return Merged(*parts[0].terms, parts[0].factor, *parts[1].terms, parts[1].factor);
+  const std::size_t half = parts.size() / 2;
+  return Merged(SumOf(parts.first(half)), 1, SumOf(parts.subspan(half)), 1);
 }
 
 }  // namespace
 
 Value Combine(double value, Dimension dimension, std::span<const Term> terms) {
   FiniteOr(value, "the result is not a finite number");
-  Terms all;
+  std::vector<Scaled> parts;
   for (const auto& [number, slope] : terms) {
-    const model::Derivatives* derivatives = number->derivatives();
-    if (!derivatives) continue;
-    for (const auto& [source, own] : derivatives->terms) all.emplace_back(source, slope * own);
+    if (const model::Derivatives* derivatives = number->derivatives()) parts.push_back({&derivatives->terms, slope});
   }
-  if (all.empty()) return Value::Number(value, dimension);
-  all = Merged(std::move(all));
+  if (parts.empty()) return Value::Number(value, dimension);
+  Terms all = SumOf(parts);
   if (all.empty()) return Value::Number(value, dimension);
   return Value::Uncertain({value, {std::move(all)}}, dimension);
+}
+
+std::uint64_t DeviationSteps(const Value& value) {
+  constexpr std::uint64_t kTermsPerStep = 8;
+  if (const model::Derivatives* derivatives = value.derivatives()) return derivatives->terms.size() / kTermsPerStep;
+  std::uint64_t steps = 0;
+  if (IsVector(value)) {
+    for (const Value& item : value.list()) steps += DeviationSteps(item);
+  }
+  return steps;
 }
 
 double FactorOf(Dimension dimension, const Unit& unit) {
@@ -65,6 +93,10 @@ double BareFactor(Dimension dimension, const Unit& unit) {
   if (dimension == model::kLength) return unit.factor;
   if (dimension == model::kAngle) return geom::kPi / 180;
   return 1;
+}
+
+double StepOf(Dimension dimension, const Unit& unit) {
+  return dimension == model::kAngle ? BareFactor(dimension, unit) : FactorOf(dimension, unit);
 }
 
 Unit WithShares(Unit unit) {
@@ -111,13 +143,16 @@ Value Chain(const Value& x, double value, double derivative, Dimension dimension
   return Combine(value, dimension, {{&x, derivative}});
 }
 
+double ShareOf(const std::pair<model::SourceId, double>& term, const SourceList& sources) {
+  const auto& [source, slope] = term;
+  return source < sources.size() ? std::abs(slope) * sources[source].sigma : 0;
+}
+
 double Sigma(const Value& number, const SourceList& sources) {
   const model::Derivatives* derivatives = number.derivatives();
   if (!derivatives) return 0;
   double sigma = 0;
-  for (const auto& [source, slope] : derivatives->terms) {
-    if (source < sources.size()) sigma = std::hypot(sigma, slope * sources[source].sigma);
-  }
+  for (const auto& term : derivatives->terms) sigma = std::hypot(sigma, ShareOf(term, sources));
   return FiniteOr(sigma, "the deviation is not a finite number");
 }
 
@@ -153,7 +188,7 @@ Value PlusMinus(const Value& value, const Value& deviation, bool relative, const
   Terms terms;
   if (const model::Derivatives* derivatives = number.derivatives()) terms = derivatives->terms;
   terms.emplace_back(source, 1.0);  // the newest source is the last
-  return Value::Uncertain({number.number(), {std::move(terms)}}, number.dimension());
+  return Value::Uncertain({number.number(), {std::move(terms), true}}, number.dimension());
 }
 
 }  // namespace tranos::interp

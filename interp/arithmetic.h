@@ -32,6 +32,8 @@ model::Value PlusMinus(const model::Value& value, const model::Value& deviation,
                        const Context& context);
 // The standard deviation of a number: 0 for one without sources.
 double Sigma(const model::Value& number, const SourceList& sources);
+// What carrying the deviation of a number or a point through one operation counts for.
+std::uint64_t DeviationSteps(const model::Value& value);
 // f(x) with its derivative, for functions of one number.
 model::Value Chain(const model::Value& x, double value, double derivative, model::Dimension dimension);
 // Brings two numbers to one dimension as `+` does; true where that is possible.

@@ -31,14 +31,23 @@ void Binder::Predeclare(const std::vector<NodeId>& statements) {
   const bool has_code = std::any_of(statements.begin(), statements.end(), [&](NodeId id) {
     return KindOf(id) == NodeKind::kFunction || KindOf(id) == NodeKind::kDefine;
   });
+  std::vector<NodeId> lets;
   for (NodeId id : statements) {
+    if (KindOf(id) == NodeKind::kLet) lets.push_back(id);
+    if (KindOf(id) != NodeKind::kHypothesis) continue;
+    for (NodeId inner : Kids(Kids(id)[1])) {
+      if (KindOf(inner) == NodeKind::kLet) lets.push_back(inner);
+    }
+  }
+  for (NodeId id : has_code ? lets : std::vector<NodeId>{}) {
     // A function may be called before a let that it uses: the let's register is its own from the block's
     // beginning, and empty until it is bound.
-    if (has_code && KindOf(id) == NodeKind::kLet) {
-      const std::uint32_t reg = NewRegister();
-      let_registers_[id] = reg;
-      Emit({Op::kMove, 0, 0, reg, AddConstant(Value()), 0}, SpanOf(id));
-    }
+    if (let_registers_.contains(id)) continue;
+    const std::uint32_t reg = NewRegister();
+    let_registers_[id] = reg;
+    Emit({Op::kMove, 0, 0, reg, AddConstant(Value()), 0}, SpanOf(id));
+  }
+  for (NodeId id : statements) {
     if (KindOf(id) == NodeKind::kFunction) PredeclareFunction(id);
     if (KindOf(id) == NodeKind::kDefine) PredeclareDefinition(id);
   }
@@ -279,6 +288,7 @@ void Binder::BindParameterStatement(NodeId id) {
   }
   const auto declared = DeclareParameter(param);
   if (!declared) return;
+  builder_->next_register = unit().registers;  // one that nothing has used: empty until it is bound
   const std::uint32_t reg = NewRegister();
   builder_->first_temporary = builder_->next_register;
   declared_parameters_.insert(declared->name);
@@ -340,6 +350,10 @@ void Binder::BindInterface(NodeId id) {
     has_place |= lower == "at";
     const bool is_frame = is_direction || lower == "at";
     if (!is_frame) CheckName(key, SpanOf(Kids(kids[i + 1])[0]));
+    if (lower == "name" || lower == "plane") {
+      Error(Code::kReservedName, SpanOf(Kids(kids[i + 1])[0]), "an interface has a `" + lower + "` of its own", "",
+            "choose another name for the measure");
+    }
     const Operand value = Typed(parts, is_frame ? Type::kPoint : Type::kAny, false, "", key, kids[i + 1]);
     Emit({Op::kMove, 0, 0, first + 2 * i, AddText(is_frame ? lower : key), 0}, SpanOf(kids[i + 1]));
     Emit({Op::kMove, 0, 0, first + 2 * i + 1, value, 0}, SpanOf(kids[i + 1]));

@@ -345,6 +345,7 @@ std::size_t Binder::BindHypotheses(const std::vector<NodeId>& statements, std::s
     const std::uint32_t over = Emit({Op::kJump}, SpanOf(statements[i]));
     {
       ScopeGuard guard(this);
+      at_top_ = guard.was_top;  // what may stand in the chosen one may stand here
       BindStatements(Kids(block));
     }
     Patch(over, Here());
@@ -399,6 +400,7 @@ void Binder::BindUnknown(NodeId id) {
   if (!at_top_ || in_used_file_ || in_definition_) {
     return Error(Code::kMisplaced, SpanOf(id), "`unknown` stands at the top of a script", "inside a block here");
   }
+  builder_->next_register = unit().registers;  // one that nothing has used: empty until it is bound
   Type type = Type::kNumber;
   bool typed = false;
   std::size_t at = 1;
@@ -505,6 +507,7 @@ void Binder::BindUsedFile(NodeId id, const std::string& path) {
       const bool was_used = std::exchange(in_used_file_, true);
       const auto predeclared = std::exchange(predeclared_, {});
       const auto let_registers = std::exchange(let_registers_, {});
+      builder_->next_register = unit().registers;  // its lets are empty until they are bound
       BindStatements(tree_->Children(tree_->root));
       predeclared_ = predeclared;
       let_registers_ = let_registers;

@@ -94,8 +94,10 @@ Value Within(Value left, Value right, const Context& context) {
     throw OpFailure{Code::kWrongType, "`within` takes a range, but this is " + WhatIs(right),
                     "expected a range such as 2m..8m, or 5m +- 10cm", "", 1};
   }
+  const bool written = right.derivatives()->last_is_written;
   if (!Align(&left, &right, *context.unit)) FailPair(left, right);
-  const double bound = Sigma(right, *context.sources);
+  const auto& terms = right.derivatives()->terms;
+  const double bound = written ? ShareOf(terms.back(), *context.sources) : Sigma(right, *context.sources);
   return Value::Boolean(std::abs(left.number() - right.number()) <= bound);
 }
 

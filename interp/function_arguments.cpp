@@ -113,7 +113,7 @@ std::vector<Value> ItemsArgument(const CallContext& context, Arguments arguments
     return value.list();
   }
   if (value.kind() != Value::Kind::kRange) FailArgument(arguments, index, "a list");
-  const double step = FactorOf(value.dimension(), *context.arithmetic.unit);
+  const double step = StepOf(value.dimension(), *context.arithmetic.unit);
   const auto [from, to] = value.range();
   return Progression(context, from, step, std::floor((to - from) / step * (1 + 1e-12)) + 1,
                      value.dimension());

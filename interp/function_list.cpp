@@ -28,7 +28,7 @@ Value Len(const CallContext& context, Arguments a) {
     return Value::Number(static_cast<double>(starts));
   }
   if (value.kind() != Value::Kind::kRange) FailArgument(a, 0, "a list or a string");
-  const double step = FactorOf(value.dimension(), *context.arithmetic.unit);
+  const double step = StepOf(value.dimension(), *context.arithmetic.unit);
   const double steps = std::floor((value.range().to - value.range().from) / step * (1 + 1e-12));
   return Combine(std::max(0.0, steps + 1), model::kPlain, {});
 }
@@ -55,7 +55,7 @@ Value Range(const CallContext& context, Arguments a) {
   }
   AlignAll(numbers, *context.arithmetic.unit, "ends and step of one range");
   const double from = numbers[0].number(), to = numbers[1].number(), step = numbers[2].number();
-  if (step == 0) throw OpFailure{Code::kOutOfRange, "the step of a range is not zero", "", "", 2};
+  if (step == 0) throw OpFailure{Code::kOutOfRange, "the step of a range cannot be zero", "", "", 2};
   const double count = StepsIn(to - from, step) + 1;
   if (std::isnan(count)) throw OpFailure{Code::kNotFinite, "the range is too long to be counted"};
   return Value::List(Progression(context, from, step, count, numbers[0].dimension()));

@@ -60,12 +60,6 @@ Value Sign(const CallContext&, Arguments a) {
   return Value::Number(x > 0 ? 1 : x < 0 ? -1 : 0);
 }
 
-// What a rounding counts in: the working unit for a length, the degree for an angle.
-double StepOf(const CallContext& context, Dimension dimension) {
-  if (dimension == model::kAngle) return kDegree;
-  return FactorOf(dimension, *context.arithmetic.unit);
-}
-
 // 1.15m counted in metres may lie an ulp beside the number that was written.
 double CountOf(double number, double step) {
   const double count = number / step;
@@ -76,7 +70,7 @@ double CountOf(double number, double step) {
 template <double (*kRound)(double)>
 Value RoundedTo(const CallContext& context, Arguments a) {
   const Value& x = NumberArgument(a, 0);
-  const double step = StepOf(context, x.dimension());
+  const double step = StepOf(x.dimension(), *context.arithmetic.unit);
   const double whole = kRound(CountOf(x.number(), step));
   return Combine(whole * step, x.dimension(), {});
 }
@@ -91,7 +85,7 @@ Value Round(const CallContext& context, Arguments a) {
   if (digits != std::floor(digits) || std::abs(digits) > 300) {
     throw OpFailure{Code::kOutOfRange, "a number of digits is whole, from -300 to 300", "", "", 1};
   }
-  const double step = StepOf(context, x.dimension());
+  const double step = StepOf(x.dimension(), *context.arithmetic.unit);
   const double power = std::pow(10, std::abs(digits));
   const double count = CountOf(x.number(), step);
   const double scaled = digits < 0 ? count / power : count * power;
@@ -221,6 +215,9 @@ std::vector<Value> Numbers(const CallContext& context, Arguments a, std::string_
                     "expected numbers", "", a.size() == 1 ? 0 : static_cast<int>(i)};
   }
   AlignAll(numbers, *context.arithmetic.unit, doing);
+  std::uint64_t steps = 0;
+  for (const Value& number : numbers) steps += DeviationSteps(number);
+  context.charge_items(steps);
   return numbers;
 }
 
@@ -238,6 +235,7 @@ Value Max(const CallContext& context, Arguments a) {
 Value SumOfPoints(const CallContext& context, const std::vector<Value>& items) {
   Value sum = items[0];
   for (std::size_t i = 1; i < items.size(); ++i) {
+    context.charge_items(DeviationSteps(sum));
     sum = Binary(Op::kAdd, sum, items[i], context.arithmetic);
   }
   return sum;

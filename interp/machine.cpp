@@ -5,6 +5,8 @@
 #include <cmath>
 #include <new>
 
+#include "interp/value_support.h"
+
 namespace tranos::interp {
 
 using model::Value;
@@ -251,9 +253,9 @@ Value Machine::CallClosure(const Value& closure, std::span<const Value> argument
     throw OpFailure{Code::kWrongCount, "the function takes " + std::to_string(parameters) + " value, and is given " +
                                            std::to_string(arguments.size())};
   }
-  if (code.stage == stage_) return CallUnit(code.unit, arguments, code.captured, span);
+  if (code.stage == stage_) return CallUnit(code.unit, arguments, closure.closure().captured, span);
   std::vector<Value> captured;
-  for (const Value& value : code.captured) captured.push_back(Detached(value, span));
+  for (const Value& value : closure.closure().captured) captured.push_back(Detached(value, span));
   return CallUnit(code.unit, arguments, captured, span);
 }
 
@@ -264,7 +266,7 @@ bool Machine::BeginCount(const Instruction& i, Value* r, Span span) {
     Fail(Code::kBadLoop, span, "a loop counts over numbers, not over " + Describe(wrong), "", "for x in LIST goes through a list");
   }
   const Unit& unit = program_.measures[i.n];
-  if (step.is_none()) step = Value::Number(from.dimension() == model::kLength ? unit.factor : 1, from.dimension());
+  if (step.is_none()) step = Value::Number(BareFactor(from.dimension(), unit), from.dimension());
   if (!Align(&from, &to, unit) || !Align(&from, &step, unit) || !Align(&from, &to, unit)) {
     Fail(Code::kBadLoop, span, "the loop goes from " + Describe(from) + " to " + Describe(to) + " by " + Describe(step));
   }
@@ -409,14 +411,17 @@ void Machine::CheckRange(const Instruction& i, const CodeUnit& unit, const Value
 
 // A value that crosses into or out of a definition's body: its elements are geometry there, for their ids mean
 // other elements.
-Value Machine::Detached(const Value& value, Span span) {
+Value Machine::Detached(const Value& value, Span span, int depth) {
   if (value.is_element()) {
     return Value::OfElement(model::WithId(*value.element(), model::kNoElement));
   }
-  if (!value.is_list()) return value;
+  if (!value.holds_elements()) return value;
+  if (depth > budget_.limits.depth) {
+    Fail(Code::kDepthLimit, span, "lists of elements are nested more than " + std::to_string(budget_.limits.depth) + " deep");
+  }
   budget_.ChargeSteps(value.list().size(), span);
   std::vector<Value> items;
-  for (const Value& item : value.list()) items.push_back(Detached(item, span));
+  for (const Value& item : value.list()) items.push_back(Detached(item, span, depth + 1));
   return Value::List(std::move(items));
 }
 
@@ -427,7 +432,10 @@ void Machine::Compute(const Instruction& i, const CodeUnit& unit, Value* r, Span
   const auto c = [&]() -> const Value& { return Get(i.c, r, k); };
   const Unit& measure = program_.measures[i.n];
   switch (i.op) {
-    case Op::kNegate: r[i.a] = Negate(b()); break;
+    case Op::kNegate:
+      budget_.ChargeSteps(DeviationSteps(b()), span);
+      r[i.a] = Negate(b());
+      break;
     case Op::kNot:
       if (!b().is_boolean()) Fail(Code::kNotBoolean, span, "`not` takes true or false, not " + Describe(b()));
       r[i.a] = Value::Boolean(!b().boolean());
@@ -436,7 +444,10 @@ void Machine::Compute(const Instruction& i, const CodeUnit& unit, Value* r, Span
       if (!b().is_boolean()) Fail(Code::kNotBoolean, span, "this is " + Describe(b()), "expected true or false");
       if (i.a != i.b) r[i.a] = b();
       break;
-    case Op::kPlusMinus: r[i.a] = PlusMinus(b(), c(), i.flags & 1, {&measure, &sources_}); break;
+    case Op::kPlusMinus:
+      budget_.ChargeSteps(DeviationSteps(b()), span);
+      r[i.a] = PlusMinus(b(), c(), i.flags & 1, {&measure, &sources_});
+      break;
     case Op::kMakeList: {
       budget_.ChargeSteps(i.c, span);
       r[i.a] = Value::List(std::vector<Value>(r + i.b, r + i.b + i.c));
@@ -471,6 +482,7 @@ void Machine::Compute(const Instruction& i, const CodeUnit& unit, Value* r, Span
     case Op::kCallBuiltin: {
       const Builtin& row = AllBuiltins()[i.flags];
       budget_.ChargeSteps(1, span);
+      for (std::uint32_t n = 0; n < i.c; ++n) budget_.ChargeSteps(DeviationSteps(r[i.b + n]), span);
       r[i.a] = row.call(ContextOf(i, span), {r + i.b, i.c});
       break;
     }
@@ -486,8 +498,7 @@ void Machine::Compute(const Instruction& i, const CodeUnit& unit, Value* r, Span
       closure->stage = stage_;
       closure->serial = ++closures_made_;
       const std::uint32_t captured = program_.units[i.b].captured;
-      closure->captured.assign(r + i.c, r + i.c + captured);
-      r[i.a] = Value::OfClosure({std::move(closure)});
+      r[i.a] = Value::OfClosure({std::move(closure), {r + i.c, r + i.c + captured}});
       break;
     }
     case Op::kLoadOuter: {
@@ -532,7 +543,10 @@ void Machine::Compute(const Instruction& i, const CodeUnit& unit, Value* r, Span
       r[i.a] = b();
       break;
     }
-    default: r[i.a] = Binary(i.op, b(), c(), {&measure, &sources_}); break;
+    default:
+      budget_.ChargeSteps(DeviationSteps(b()) + DeviationSteps(c()), span);
+      r[i.a] = Binary(i.op, b(), c(), {&measure, &sources_});
+      break;
   }
 }
 

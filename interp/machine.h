@@ -35,7 +35,6 @@ class Machine {
     std::uint32_t unit;
     const Stage* stage;    // where it was made
     std::uint64_t serial;  // tells function values of a run apart
-    std::vector<model::Value> captured;
   };
 
   model::Value Execute(std::uint32_t unit, model::Value* registers, std::uint32_t from, Stage* stage);
@@ -49,7 +48,7 @@ class Machine {
   bool BeginEach(const Instruction& i, model::Value* registers, Span span);
   bool NextEach(const Instruction& i, model::Value* registers, Span span);
   model::Value LoadName(const Instruction& i, const model::Value* registers, const Instruction& next, Span span);
-  model::Value Detached(const model::Value& value, Span span);
+  model::Value Detached(const model::Value& value, Span span, int depth = 0);
   void Effect(const Instruction& i, const CodeUnit& unit, model::Value* registers, Stage* stage, Span span);
   void PointEffect(const Instruction& i, const CodeUnit& unit, const model::Value* registers, Stage* stage, Span span);
   void NoteAssert(const Instruction& i, const CodeUnit& unit, const model::Value* registers, Span span);
@@ -58,7 +57,7 @@ class Machine {
   // Definitions (placing.cpp).
   model::ElementPtr Place(const Placement& placement, const model::State& state);
   model::PrototypePtr Build(const Definition& definition, Registers registers, Span span);
-  model::Hash128 KeyOf(const Definition& definition, const Registers& registers);
+  model::Hash128 KeyOf(const Definition& definition, const Registers& registers, Span span);
   const std::vector<std::pair<std::uint32_t, std::uint32_t>>& OuterOf(std::uint32_t unit);
 
   CallContext ContextOf(const Instruction& i, Span span);

@@ -53,15 +53,43 @@ const std::vector<std::pair<std::uint32_t, std::uint32_t>>& Machine::OuterOf(std
   return found->second;
 }
 
+namespace {
+
+// Two elements of equal content may still differ in what they can be asked for: an instance's parameters and
+// interfaces, a group's names. Prototypes live as long as the run, so their addresses tell them apart.
+void AddMembers(model::Hasher& hasher, const model::Element& element) {
+  if (const auto* instance = std::get_if<model::InstancePtr>(&element.geometry)) {
+    hasher.Integer(static_cast<std::int64_t>(reinterpret_cast<std::intptr_t>((*instance)->prototype.get())));
+  } else if (const auto* group = std::get_if<model::GroupPtr>(&element.geometry)) {
+    for (const model::NamedElements& named : (*group)->names) {
+      hasher.Text(named.name);
+      for (const model::ElementPtr& part : named.elements) hasher.Hash(part->hash);
+    }
+    for (const model::ElementPtr& member : (*group)->members) AddMembers(hasher, *member);
+  }
+}
+void AddMembers(model::Hasher& hasher, const Value& value) {
+  if (!value.holds_elements()) return;
+  if (value.is_element()) return AddMembers(hasher, *value.element());
+  for (const Value& item : value.list()) AddMembers(hasher, item);
+}
+
+}  // namespace
+
 // Arguments and everything else that the body can depend on.
-Hash128 Machine::KeyOf(const Definition& definition, const Registers& registers) {
+Hash128 Machine::KeyOf(const Definition& definition, const Registers& registers, Span span) {
   model::Hasher hasher;
-  for (std::size_t i = 0; i < definition.parameters.size(); ++i) AddToHash(hasher, registers[i]);
+  for (std::size_t i = 0; i < definition.parameters.size(); ++i) {
+    AddToHash(hasher, registers[i]);
+    AddMembers(hasher, registers[i]);
+  }
   for (const auto& [unit, reg] : OuterOf(definition.unit)) {
     const Activation& activation = innermost_[unit];
     if (!activation.registers) continue;
     const Value& value = activation.registers[reg];
-    AddToHash(hasher, value);
+    const Value shown = Detached(value, span);
+    AddToHash(hasher, shown);
+    AddMembers(hasher, shown);
     // A function value has no content to hash: only itself is the same.
     if (value.kind() == Value::Kind::kClosure) {
       hasher.Integer(static_cast<std::int64_t>(static_cast<const ClosureCode*>(value.closure().code.get())->serial));
@@ -72,7 +100,10 @@ Hash128 Machine::KeyOf(const Definition& definition, const Registers& registers)
     if (!place.stage || scope == definition.scope) continue;
     const auto& ids = place.stage->NamesOut(place.stage->groups() - place.depth)[index].ids;
     ids.ForEach([&](model::ElementId id) {
-      if (const model::ElementPtr element = place.stage->state().model.Current(id)) hasher.Hash(element->hash);
+      const model::ElementPtr element = place.stage->state().model.Current(id);
+      if (!element) return;
+      hasher.Hash(element->hash);
+      AddMembers(hasher, *element);
     });
   }
   return hasher.Finish();
@@ -90,7 +121,7 @@ model::ElementPtr Machine::Place(const Placement& placement, const model::State&
   Registers registers(unit.registers);
   for (std::size_t i = 0; i < definition.parameters.size(); ++i) {
     const DefinedParameter& parameter = definition.parameters[i];
-    registers[i] = Detached(placement.arguments[i], placement.span);
+    registers[i] = placement.arguments[i];
     for (const auto& [name, measure] : placement.measures) {
       if (name != parameter.name) continue;
       const Value value = Convert(measure, parameter.type, program_.measures[0], name);
@@ -107,7 +138,10 @@ model::ElementPtr Machine::Place(const Placement& placement, const model::State&
   Lend<const Placement*> placing(&placing_, &placement);
   ++definition_depth_;
   Execute(definition.unit, registers.data(), 0, stage_);  // the parameters
-  const auto key = std::make_pair(definition.unit, KeyOf(definition, registers));
+  for (std::size_t i = 0; i < definition.parameters.size(); ++i) {
+    registers[i] = Detached(registers[i], placement.span);
+  }
+  const auto key = std::make_pair(definition.unit, KeyOf(definition, registers, placement.span));
   auto found = prototypes_.find(key);
   if (found == prototypes_.end()) {
     found = prototypes_.emplace(key, Build(definition, std::move(registers), placement.span)).first;
@@ -157,7 +191,12 @@ void Machine::NoteInterface(const Instruction& i, const CodeUnit& unit, const Va
     if (key == "at") interface.frame.origin = PointOf(value);
     else if (key == "axis") axis = PointOf(value);
     else if (key == "dir") direction = PointOf(value);
-    else interface.measures.emplace_back(key, value);
+    else if (value.holds_elements() || value.kind() == Value::Kind::kClosure || value.kind() == Value::Kind::kRecord) {
+      Fail(Code::kWrongType, span, "the measure `" + key + "` is " + Describe(value), "expected a number such as 4.5m",
+           "name the part with `as`: it is then a member of the placed element");
+    } else {
+      interface.measures.emplace_back(key, value);
+    }
   }
   if (!(axis.norm() > 0)) Fail(Code::kDegenerate, span, "the axis of the interface has no direction");
   axis.normalize();

@@ -128,6 +128,8 @@ void Stage::Parameter(std::uint32_t key, Value value, Span span) {
   }
   if (links_.options) key_in_ = std::string(declared.name) + "=" + KeyInText(value);
   answer = {std::move(value), span, true, false};
+  // `of=` given anew is worked on, not what the firing before it left chosen.
+  if (declared.name == "of" && declared.type == Type::kElements) active_.selected = false;
   const bool asks_points = active_.row->manner == Manner::kPlaces || active_.row->manner == Manner::kTransforms;
   if (asks_points && declared.prompt >= 0 && PromptsAnswered() &&
       (active_.row->manner == Manner::kPlaces || ChosenCount() > 0)) {
@@ -357,6 +359,7 @@ void Stage::BlockBegin(bool restores) {
 
 void Stage::BlockEnd(Span span) {
   if (active_.row && active_.depth == blocks_.size()) End(span, false);
+  if (!active_.row) made_.clear();  // `as` beyond the brace would name the last of it alone
   const Block block = std::move(blocks_.back());
   blocks_.pop_back();
   history_base_ = block.history_base;
@@ -383,15 +386,15 @@ void Stage::GroupEnd(Span span) {
   groups_.pop_back();
   if (!groups_.empty() && open.touches_outside) groups_.back().touches_outside = true;
   undone_.clear();
-  auto group = std::make_shared<model::Group>();
+  model::Group group;
   model::Edit edit;
   for (std::size_t id = open.first_id; id < state_.model.entries.size(); ++id) {
     const model::Entry& entry = state_.model.entries[id];
     if (entry.standing != model::Standing::kInModel) continue;
-    group->members.push_back(entry.element);
+    group.members.push_back(entry.element);
     edit.grouped.push_back(static_cast<ElementId>(id));
   }
-  group->names = NamesOf(open.scope);
+  group.names = NamesOf(open.scope);
   state_.drawing.names = open.names;
   if (open.touches_outside) state_.drawing.names.Rehash(state_.model.entries);
   // The group is one step: what was done in it is not undone by itself.
@@ -402,13 +405,13 @@ void Stage::GroupEnd(Span span) {
                marks_.end());
   made_.clear();
   if (changed) history_.push_back(std::move(open.before));
-  if (group->members.empty()) return;
+  if (group.members.empty()) return;
   // A group hands none of its own settings on to its members.
   auto attributes = std::make_shared<model::Attributes>(*state_.drawing.settings->attributes);
   attributes->own = 0;
-  edit.added.push_back(model::WithAttributes(*NewElement(state_, model::GroupPtr(std::make_shared<model::Group>())),
+  edit.added.push_back(model::WithAttributes(*NewElement(state_, model::MakeGroup({})),
                                              std::move(attributes)));
-  edit.added.back() = model::WithGeometry(*edit.added.back(), model::GroupPtr(std::move(group)));
+  edit.added.back() = model::WithGeometry(*edit.added.back(), model::MakeGroup(std::move(group)));
   edit.selection = state_.drawing.selection;
   links_.budget->ChargeElements(1, span);
   if (links_.options) key_in_ = "} group";

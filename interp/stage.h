@@ -8,6 +8,7 @@
 #include <functional>
 #include <string>
 #include <unordered_map>
+#include <unordered_set>
 #include <utility>
 #include <vector>
 
@@ -142,8 +143,12 @@ class Stage {
   const KeyAnswer* FindWorkingOf() const;
   std::vector<model::ElementPtr> Chosen(Span span) const;
   std::size_t ChosenCount() const;
-  void AddChosen(const model::ElementPtr& element, Span span,
-                 std::vector<model::ElementPtr>* out) const;
+  // Elements in the order of choosing, each once.
+  struct ChosenOnce {
+    std::vector<model::ElementPtr> elements;
+    std::unordered_set<model::ElementId> ids;
+  };
+  void AddChosen(const model::ElementPtr& element, Span span, ChosenOnce* out) const;
   void Fire(Span span);
   void GuardChanges(model::Edit* edit) const;
   void FirePlacement(Span span);
@@ -152,6 +157,8 @@ class Stage {
   void CheckRequired(Span span) const;
   void CheckUnused() const;
   Answers MakeAnswers(Span span) const;
+  void CheckDepth(const model::Edit& edit, Span span) const;
+  void CheckNear(const model::Element& placed, Span span) const;
   void NoteOutside(const model::Edit& edit);
   void Commit(const model::Edit& edit, Span span);
   void End(Span span, bool is_reset);

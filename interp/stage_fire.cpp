@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "interp/commands/firing.h"
 #include "interp/functions.h"
 #include "interp/pick.h"
 #include "interp/stage.h"
@@ -47,18 +48,17 @@ Diagnostic Stage::MakeDiagnostic(const CommandError& error) const {
   return {error.code, SpanOf(error.where), error.message, error.label, error.help};
 }
 
-void Stage::AddChosen(const ElementPtr& element, Span span, std::vector<ElementPtr>* out) const {
+void Stage::AddChosen(const ElementPtr& element, Span span, ChosenOnce* out) const {
   const model::Model& model = state_.model;
   if (element->id < model.entries.size()) {
     const model::Standing standing = model.entries[element->id].standing;
     const std::string name = element->name ? "`" + Printable(*element->name) + "`" : "the element";
     if (standing == model::Standing::kDeleted) Fail(Code::kNoLongerThere, span, name + " was deleted");
     const ElementPtr current = model.Current(element->id);
-    const bool known = std::any_of(out->begin(), out->end(), [&](const ElementPtr& e) { return e->id == element->id; });
-    if (!known) out->push_back(current);
+    if (out->ids.insert(element->id).second) out->elements.push_back(current);
     return;
   }
-  out->push_back(element);  // a part of a placed element: geometry alone
+  out->elements.push_back(element);  // a part of a placed element: geometry alone
 }
 
 // The `of=` that the next firing works on: a picking command's counts once, a transforming one's
@@ -71,18 +71,18 @@ const Stage::KeyAnswer* Stage::FindWorkingOf() const {
 }
 
 std::vector<ElementPtr> Stage::Chosen(Span span) const {
-  std::vector<ElementPtr> out;
+  ChosenOnce out;
   if (const KeyAnswer* of = FindWorkingOf()) {
     for (const Value& item : of->value.list()) AddChosen(item.element(), of->span, &out);
-    return out;
+    return std::move(out.elements);
   }
   const bool picking = active_.row->manner == Manner::kPicks || active_.row->manner == Manner::kEdits;
   // What was chosen before is used by a picking command's first firing alone.
   if (!picking || active_.firings == 0) {
-    for (ElementId id : state_.drawing.selection) out.push_back(state_.model.Current(id));
+    for (ElementId id : state_.drawing.selection) AddChosen(state_.model.Current(id), span, &out);
   }
   for (ElementId id : active_.picks) AddChosen(state_.model.Current(id), span, &out);
-  return out;
+  return std::move(out.elements);
 }
 
 std::size_t Stage::ChosenCount() const {
@@ -199,6 +199,7 @@ void Stage::Fire(Span span) {
 }
 
 void Stage::FirePlacement(Span span) {
+  if (const auto error = TooFar(MakeAnswers(span))) throw RunFailure{MakeDiagnostic(*error)};
   Placement placement{active_.definition, {}, {}, geom::Affine::Identity(), active_.span, active_.measures};
   for (std::size_t i = 0; i < active_.keys.size(); ++i) {
     placement.arguments.push_back(active_.keys[i].value);
@@ -212,11 +213,31 @@ void Stage::FirePlacement(Span span) {
   placement.world_from_element.scale(settings.scale);
   model::Edit edit;
   edit.added.push_back(links_.place(placement, state_));
+  CheckNear(*edit.added.back(), span);
   links_.budget->ChargeElements(1, span);
   TakeIds();
   history_.push_back(state_);
   Commit(edit, span);
   AskAgain();
+}
+
+// Scale and parameters may take a placed element beyond what its point keeps within.
+void Stage::CheckNear(const model::Element& placed, Span span) const {
+  const geom::Box box = model::BoundingBox(placed);
+  if (box.empty()) return;
+  const double farthest_m = std::max(box.min.cwiseAbs().maxCoeff(), box.max.cwiseAbs().maxCoeff());
+  if (farthest_m <= kFarthest_m) return;
+  Fail(Code::kOutOfRange, span, "the placed element reaches more than a million kilometres away", "at most 1e9 m");
+}
+
+// Groups and placed elements are walked by recursion, so that they may not nest without bound.
+void Stage::CheckDepth(const model::Edit& edit, Span span) const {
+  const int most = links_.budget->limits.depth;
+  for (const ElementPtr& element : edit.added) {
+    if (model::DepthOf(*element) <= most) continue;
+    Fail(Code::kDepthLimit, span, "elements are nested more than " + std::to_string(most) + " deep", "",
+         "--limit depth=N raises the limit");
+  }
 }
 
 // A group that changes what stood before it is told of: the names around it then mean something else.
@@ -235,6 +256,7 @@ void Stage::NoteOutside(const model::Edit& edit) {
 
 // Carries an edit out, remembers what it made, and tells of it.
 void Stage::Commit(const model::Edit& edit, Span span) {
+  CheckDepth(edit, span);
   if (edit.ChangesModel()) undone_.clear();
   TakeIds();
   NoteOutside(edit);

@@ -27,6 +27,8 @@ inline model::Value Combine(double value, model::Dimension dimension,
                             std::initializer_list<Term> terms) {
   return Combine(value, dimension, std::span<const Term>(terms.begin(), terms.size()));
 }
+// What one source adds to a number's deviation.
+double ShareOf(const std::pair<model::SourceId, double>& term, const SourceList& sources);
 // The number without its deviation.
 inline model::Value ValueOf(const model::Value& number) {
   return model::Value::Number(number.number(), number.dimension());
@@ -36,6 +38,8 @@ inline model::Value ValueOf(const model::Value& number) {
 double FactorOf(model::Dimension dimension, const Unit& unit);
 // A bare number's factor where `dimension` is meant; 1 where bare numbers are not read so.
 double BareFactor(model::Dimension dimension, const Unit& unit);
+// What counting and rounding go by: one of the working unit's kind, of angles the degree.
+double StepOf(model::Dimension dimension, const Unit& unit);
 
 // The value in a few words for a message, as it might be written: `30deg`, `"abc"`, `a list of 3`.
 std::string Shown(const model::Value& value);

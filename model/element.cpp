@@ -3,6 +3,7 @@
 // two kinds share canonical bytes.
 #include "model/element.h"
 
+#include <algorithm>
 #include <unordered_map>
 
 namespace tranos::model {
@@ -130,6 +131,12 @@ void AddOwn(Hasher& hasher, const Element& part) {
   }
 }
 
+int DeepestOf(const std::vector<ElementPtr>& elements) {
+  int deepest = 0;
+  for (const ElementPtr& element : elements) deepest = std::max(deepest, DepthOf(*element));
+  return deepest;
+}
+
 ElementPtr Hashed(Element element) {
   element.hash = HashOf(element);
   return std::make_shared<const Element>(std::move(element));
@@ -177,12 +184,23 @@ ElementPtr WithAttributes(const Element& element, AttributesPtr attributes) {
   return Hashed(std::move(copy));
 }
 
+int DepthOf(const Element& element) {
+  if (const auto* group = std::get_if<GroupPtr>(&element.geometry)) return (*group)->depth;
+  const auto* instance = std::get_if<InstancePtr>(&element.geometry);
+  return instance ? (*instance)->prototype->depth : 0;
+}
+
+GroupPtr MakeGroup(Group group) {
+  group.depth = 1 + DeepestOf(group.members);
+  return std::make_shared<const Group>(std::move(group));
+}
+
 GroupPtr MapMembers(const Group& group, const std::function<ElementPtr(const ElementPtr&)>& map) {
-  auto result = std::make_shared<Group>();
+  Group result;
   std::unordered_map<const Element*, ElementPtr> mapped;
   for (const ElementPtr& member : group.members) {
     const ElementPtr& target = mapped[member.get()] = map(member);
-    if (target) result->members.push_back(target);
+    if (target) result.members.push_back(target);
   }
   for (NamedElements named : group.names) {
     for (ElementPtr& element : named.elements) {
@@ -191,9 +209,9 @@ GroupPtr MapMembers(const Group& group, const std::function<ElementPtr(const Ele
       element = target->second;
     }
     std::erase(named.elements, nullptr);
-    result->names.push_back(std::move(named));
+    result.names.push_back(std::move(named));
   }
-  return result;
+  return MakeGroup(std::move(result));
 }
 
 PrototypePtr MakePrototype(Prototype prototype) {
@@ -202,6 +220,7 @@ PrototypePtr MakePrototype(Prototype prototype) {
   AddCount(hasher, prototype.parts.size());
   for (const ElementPtr& part : prototype.parts) AddOwn(hasher.Hash(part->hash), *part);
   prototype.hash = hasher.Finish();
+  prototype.depth = 1 + DeepestOf(prototype.parts);
   return std::make_shared<const Prototype>(std::move(prototype));
 }
 

@@ -89,7 +89,11 @@ struct NamedElements {
 struct Group {
   std::vector<ElementPtr> members;
   std::vector<NamedElements> names;
+  int depth = 1;  // how many groups and placed elements lie in one another, this one included
 };
+using GroupPtr = std::shared_ptr<const Group>;
+// The group with its depth counted.
+GroupPtr MakeGroup(Group group);
 
 // A named frame where others meet an element, with measures ("radius", 5 m).
 struct Interface {
@@ -106,9 +110,10 @@ struct Prototype {
   std::vector<Interface> interfaces;
   std::vector<std::pair<std::string, Value>> parameters;  // in the order of declaration
   Hash128 hash;                                           // of parts and words
+  int depth = 1;                                          // as a group's
 };
 using PrototypePtr = std::shared_ptr<const Prototype>;
-// The prototype with its hash computed: over words, parts in their order and which settings they
+// The prototype with its depth counted and its hash computed: over words, parts in their order and which settings they
 // own.
 PrototypePtr MakePrototype(Prototype prototype);
 
@@ -123,7 +128,6 @@ struct Point {
 using CurvePtr = std::shared_ptr<const geom::Curve>;
 using SurfacePtr = std::shared_ptr<const geom::Surface>;
 using TextPtr = std::shared_ptr<const geom::Text>;
-using GroupPtr = std::shared_ptr<const Group>;
 using InstancePtr = std::shared_ptr<const Instance>;
 using Geometry = std::variant<Point, CurvePtr, SurfacePtr, TextPtr, GroupPtr, InstancePtr>;
 
@@ -149,6 +153,10 @@ ElementPtr WithGeometry(const Element& element, Geometry geometry);
 GroupPtr MapMembers(const Group& group, const std::function<ElementPtr(const ElementPtr&)>& map);
 // Groups member by member; an instance by its transform alone.
 ElementPtr Transformed(const Element& element, const geom::Affine& target_from_source);
+
+// How many groups and placed elements lie in one another, the element included: 0 for one that has
+// no parts.
+int DepthOf(const Element& element);
 
 // "point", "line", "arc", "circle", "line string", "shape", "curve", "chain", "surface", "text",
 // "group", or an instance's words.

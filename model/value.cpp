@@ -40,13 +40,21 @@ Value Value::Uncertain(model::Uncertain number, Dimension dimension) {
   return Make(Kind::kUncertain, dimension, std::move(number));
 }
 Value Value::String(std::string text) { return Make(Kind::kString, kPlain, std::move(text)); }
-Value Value::List(std::vector<Value> items) { return Make(Kind::kList, kPlain, std::move(items)); }
+Value Value::List(std::vector<Value> items) {
+  const bool holds = std::any_of(items.begin(), items.end(),
+                                 [](const Value& item) { return item.holds_elements_; });
+  Value list = Make(Kind::kList, kPlain, std::move(items));
+  list.holds_elements_ = holds;
+  return list;
+}
 Value Value::Range(ValueRange range, Dimension dimension) {
   return Make(Kind::kRange, dimension, range);
 }
 Value Value::Plane(const geom::Frame& plane) { return Make(Kind::kPlane, kPlain, plane); }
 Value Value::OfElement(std::shared_ptr<const Element> element) {
-  return Make(Kind::kElement, kPlain, std::move(element));
+  Value value = Make(Kind::kElement, kPlain, std::move(element));
+  value.holds_elements_ = true;
+  return value;
 }
 Value Value::OfClosure(Closure closure) { return Make(Kind::kClosure, kPlain, std::move(closure)); }
 Value Value::OfRecord(Record record) { return Make(Kind::kRecord, kPlain, std::move(record)); }
@@ -82,17 +90,15 @@ void Value::DropReference() {
     case Kind::kString:
       return free_as.operator()<std::string>();
     case Kind::kList:
-      return FreeList();
+    case Kind::kClosure:
+    case Kind::kRecord:
+      return FreeNested();
     case Kind::kRange:
       return free_as.operator()<ValueRange>();
     case Kind::kPlane:
       return free_as.operator()<geom::Frame>();
     case Kind::kElement:
       return free_as.operator()<std::shared_ptr<const Element>>();
-    case Kind::kClosure:
-      return free_as.operator()<Closure>();
-    case Kind::kRecord:
-      return free_as.operator()<Record>();
     case Kind::kNone:
     case Kind::kNumber:
     case Kind::kBoolean:
@@ -100,20 +106,31 @@ void Value::DropReference() {
   }
 }
 
-// Lists may nest deeper than the call stack: the items of a list that goes with this one move to
-// a heap-allocated stack first, so that each list that is deleted holds no list any more.
-void Value::FreeList() {
-  auto* list = reinterpret_cast<HeapOf<std::vector<Value>>*>(heap_);
-  std::vector<Value> pending = std::move(list->content);
-  delete list;
+// Lists, records and functions may nest deeper than the call stack: the values in one that goes with
+// this one move to a heap-allocated stack first, so that each that is deleted holds none any more.
+void Value::FreeNested() {
+  std::vector<Value> pending;
+  const auto take_from = [&pending](Kind kind, Heap* heap) {
+    const auto take = [&](std::vector<Value>& values) {
+      std::move(values.begin(), values.end(), std::back_inserter(pending));
+      values.clear();
+    };
+    if (kind == Kind::kList) take(reinterpret_cast<HeapOf<std::vector<Value>>*>(heap)->content);
+    if (kind == Kind::kClosure) take(reinterpret_cast<HeapOf<Closure>*>(heap)->content.captured);
+    if (kind != Kind::kRecord) return;
+    for (auto& [name, value] : reinterpret_cast<HeapOf<Record>*>(heap)->content.members) {
+      pending.push_back(std::move(value));
+    }
+  };
+  take_from(kind_, heap_);
   while (!pending.empty()) {
     const Value item = std::move(pending.back());
     pending.pop_back();
-    if (!item.is_list() || item.heap_->references > 1) continue;
-    auto& items = reinterpret_cast<HeapOf<std::vector<Value>>*>(item.heap_)->content;
-    std::move(items.begin(), items.end(), std::back_inserter(pending));
-    items.clear();
+    if (item.is_heap() && item.heap_->references == 1) take_from(item.kind_, item.heap_);
   }
+  if (kind_ == Kind::kList) delete reinterpret_cast<HeapOf<std::vector<Value>>*>(heap_);
+  if (kind_ == Kind::kClosure) delete reinterpret_cast<HeapOf<Closure>*>(heap_);
+  if (kind_ == Kind::kRecord) delete reinterpret_cast<HeapOf<Record>*>(heap_);
 }
 
 namespace {

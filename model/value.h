@@ -24,6 +24,7 @@ using SourceId = std::uint32_t;  // one unknown, or one evaluation of a `+-` lit
 // A number's first-order dependence on the sources it came from: ∂value/∂source, by source.
 struct Derivatives {
   std::vector<std::pair<SourceId, double>> terms;  // sorted by source
+  bool last_is_written = false;  // of `a +- s` as it stands: the last term is the s
 };
 struct Uncertain {
   double value;
@@ -33,10 +34,7 @@ struct ValueRange {
   double from, to;  // both ends in
 };
 struct Record;
-// A function as a value; `code` is interp's own, carried and never read here.
-struct Closure {
-  std::shared_ptr<const void> code;
-};
+struct Closure;
 
 class Value {
  public:
@@ -117,6 +115,9 @@ class Value {
   const Closure& closure() const;
   const Record& record() const;
 
+  // Whether it is an element, or a list with one somewhere in it.
+  bool holds_elements() const { return holds_elements_; }
+
   // A number in place, without derivatives: the interpreter's fast path.
   bool fast_number() const { return kind_ == Kind::kNumber; }
   double fast_value() const { return number_; }
@@ -133,25 +134,30 @@ class Value {
   void CopyFrom(const Value& other) {
     kind_ = other.kind_;
     dimension_ = other.dimension_;
+    holds_elements_ = other.holds_elements_;
     number_ = other.number_;
     if (is_heap()) AddReference();
   }
   void StealFrom(Value& other) {
     kind_ = other.kind_;
     dimension_ = other.dimension_;
+    holds_elements_ = other.holds_elements_;
     number_ = other.number_;
     other.kind_ = Kind::kNone;
+    other.holds_elements_ = false;
   }
   void Release() {
     if (is_heap()) DropReference();
     kind_ = Kind::kNone;
+    holds_elements_ = false;
   }
   void AddReference() const;
   void DropReference();
-  void FreeList();
+  void FreeNested();
 
   Kind kind_ = Kind::kNone;
   Dimension dimension_;
+  bool holds_elements_ = false;  // of an element, and of a list with one somewhere in it
   union {
     double number_ = 0;
     bool boolean_;
@@ -171,6 +177,13 @@ struct Record {
     }
     return nullptr;
   }
+};
+
+// A function as a value; `code` is interp's own, carried and never read here, and holds no values:
+// those that it captured may be functions too, and so on without bound.
+struct Closure {
+  std::shared_ptr<const void> code;
+  std::vector<Value> captured = {};
 };
 
 // Same kind, dimension and content, derivatives included; elements by content.

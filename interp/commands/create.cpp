@@ -75,7 +75,7 @@ CommandResult CreateShape(const State& state, const Answers& answers) {
 CommandResult CreateGroup(const State& state, const Answers& answers) {
   if (auto error = NothingChosen(answers)) return Fail(*error);
   const bool keep = answers.Flag("keep");
-  auto group = std::make_shared<model::Group>();
+  model::Group group;
   model::Edit edit;
   for (std::size_t i = 0; i < answers.chosen.size(); ++i) {
     const ElementPtr& element = answers.chosen[i];
@@ -86,13 +86,13 @@ CommandResult CreateGroup(const State& state, const Answers& answers) {
            .help = "`drop` the group first, or group copies with keep=true",
            .where = {Where::kChosen, static_cast<int>(i), {}}});
     }
-    group->members.push_back(element);
+    group.members.push_back(element);
     if (!keep) edit.grouped.push_back(element->id);
   }
   // The members keep their own settings; the group has none to give them.
   model::Attributes attributes = *state.drawing.settings->attributes;
   attributes.own = 0;
-  edit.added.push_back(model::MakeElement(model::kNoElement, model::GroupPtr(std::move(group)),
+  edit.added.push_back(model::MakeElement(model::kNoElement, model::MakeGroup(std::move(group)),
                                           std::make_shared<const model::Attributes>(attributes),
                                           nullptr, state.drawing.settings->tolerance));
   return Fired{.edit = std::move(edit)};
