@@ -35,7 +35,7 @@ struct Prompt {
   std::string_view name;  // "start", "next point"
 };
 
-// How a command runs (LANGUAGE.md, section 4).
+// How a command runs (docs/language.md, "How a command runs").
 enum class Manner : std::uint8_t {
   kImmediate,   // asks for no data point; fires at the separator that ends its statement
   kPlaces,      // fires at the data point that answers its last question, then asks again from `again`

@@ -63,7 +63,7 @@ class Diagnostics {
   std::size_t warning_count_ = 0;
 };
 
-// As in LANGUAGE.md section 9, with source line and carets; control characters are shown escaped.
+// As in docs/language.md, "Evidence and errors", with source line and carets; control characters are shown escaped.
 std::string RenderText(const Diagnostic& diagnostic, const Sources& sources, bool colour);
 // The place alone, as it stands below a diagnostic's first line: path, source line, carets, label.
 std::string RenderPlace(const Span& span, std::string_view label, const Sources& sources,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How a command runs (LANGUAGE.md, section 4): the state, the active command with its answers, and
+// How a command runs (docs/language.md, "How a command runs"): the state, the active command with its answers, and
 // the history that undo walks. A script has one stage; so has each body of a definition while it is
 // built.
 #pragma once

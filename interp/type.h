@@ -36,7 +36,7 @@ enum class Type : std::uint8_t {
 
 // "a length", "a count", … for messages.
 std::string_view Describe(Type type);
-// The type with this name in a declaration ("length"); only those of LANGUAGE.md section 6.
+// The type with this name in a declaration ("length"); only those that docs/language.md lists.
 std::optional<Type> TypeNamed(std::string_view name);
 std::vector<std::string> TypeNames();
 
