@@ -67,7 +67,7 @@ Edit Grouping(const State& state, const std::vector<ElementId>& ids) {
   std::vector<ElementPtr> members;
   for (const ElementId id : ids) members.push_back(state.model.Current(id));
   edit.grouped = ids;
-  edit.added.push_back(MakeGroup(members, {{"first", {members[0]}, false}}));
+  edit.added.push_back(MakeGroupOf(members, {{"first", {members[0]}, false}}));
   return edit;
 }
 

@@ -40,7 +40,7 @@ TEST(Element, TypesHaveTheirWords) {
   EXPECT_EQ(TypeOf(*MakeCurve(geom::Polyline{corners, true})), "shape");
   EXPECT_EQ(TypeOf(*MakeCurve(geom::BsplineCurve{})), "curve");
   EXPECT_EQ(TypeOf(*MakeCurve(geom::Chain{})), "chain");
-  EXPECT_EQ(TypeOf(*MakeGroup({})), "group");
+  EXPECT_EQ(TypeOf(*MakeGroupOf({})), "group");
   EXPECT_EQ(TypeOf(*MakeInstance({}, Moved(0))), "arch");
 }
 
@@ -60,23 +60,23 @@ TEST(Element, EachChangeOfGeometryChangesTheHash) {
       MakeCurve(geom::Circle{turned, 1}),
       MakeCurve(geom::Arc{{}, 1, 1}),
       MakeCurve(geom::Arc{{}, 1, 2}),
-      MakeGroup({MakePoint(0)}),
-      MakeGroup({MakePoint(1)}),
+      MakeGroupOf({MakePoint(0)}),
+      MakeGroupOf({MakePoint(1)}),
       MakeInstance({MakePoint(0)}, Moved(0)),
       MakeInstance({MakePoint(0)}, Moved(1)),
       MakeInstance({MakePoint(1)}, Moved(0))};
   std::set<Hash128> hashes;
   for (const ElementPtr& element : different) hashes.insert(element->hash);
   EXPECT_EQ(hashes.size(), different.size());
-  EXPECT_EQ(MakeGroup({MakePoint(0), MakePoint(1)})->hash,
-            MakeGroup({MakePoint(1), MakePoint(0)})->hash);
+  EXPECT_EQ(MakeGroupOf({MakePoint(0), MakePoint(1)})->hash,
+            MakeGroupOf({MakePoint(1), MakePoint(0)})->hash);
 }
 
 TEST(Element, PartsInheritWhatTheyDoNotOwn) {
   const ElementPtr plain = WithAttributes(*MakePoint(0), Coloured(1));
   const ElementPtr own = WithAttributes(*MakePoint(1), Coloured(2, Attributes::kColour));
-  const ElementPtr group = WithAttributes(*MakeGroup({}), Coloured(9, Attributes::kColour));
-  const ElementPtr filled = WithGeometry(*group, MakeGroup({plain, own})->geometry);
+  const ElementPtr group = WithAttributes(*MakeGroupOf({}), Coloured(9, Attributes::kColour));
+  const ElementPtr filled = WithGeometry(*group, MakeGroupOf({plain, own})->geometry);
   EXPECT_EQ(LeafColours(*filled), (std::vector<std::uint32_t>{1, 2}));
   const ElementPtr placed = MakeInstance({plain, own, filled}, Moved(0), Coloured(5));
   EXPECT_EQ(LeafColours(*placed), (std::vector<std::uint32_t>{5, 2, 5, 2}));
@@ -94,7 +94,7 @@ TEST(Element, OwningASettingIsPartOfThePrototype) {
 TEST(Element, TransformedGroupsCarryTheirNames) {
   const ElementPtr member = MakePoint(1), gone = MakePoint(2);
   const ElementPtr group =
-      MakeGroup({member}, {{"kept", {member}, false}, {"consumed", {gone}, false}});
+      MakeGroupOf({member}, {{"kept", {member}, false}, {"consumed", {gone}, false}});
   const ElementPtr transformed = Transformed(*group, Moved(10));
   const Group& moved = *std::get<GroupPtr>(transformed->geometry);
   EXPECT_EQ(moved.names[0].elements[0], moved.members[0]);
@@ -155,6 +155,15 @@ TEST(View, FramesAreOrthonormalAndLookTheRightWay) {
   EXPECT_EQ(FrameOf("front").x, geom::Vec3::UnitX());
   EXPECT_EQ(FrameOf("front").y, geom::Vec3::UnitZ());
   EXPECT_GT(FrameOf("iso").y.z(), 0.8);
+}
+
+TEST(Depth, CountsGroupsAndPlacedElementsInOneAnother) {
+  const ElementPtr point = MakePoint(1);
+  EXPECT_EQ(DepthOf(*point), 0);
+  const ElementPtr group = MakeGroupOf({MakeGroupOf({point}), point});
+  EXPECT_EQ(DepthOf(*group), 2);
+  EXPECT_EQ(DepthOf(*Transformed(*group, Moved(1))), 2);
+  EXPECT_EQ(DepthOf(*MakeInstance({point, group}, Moved(1))), 3);
 }
 
 }  // namespace

@@ -43,7 +43,7 @@ TEST(Measure, ElementsHaveOnlyTheirOwnKind) {
 }
 
 TEST(Measure, GroupsSumTheirMembers) {
-  const ElementPtr group = MakeGroup(
+  const ElementPtr group = MakeGroupOf(
       {MakeCurve(geom::Circle{{}, 1}), MakePoint(5), MakeCurve(geom::Line{{0, 0, 0}, {0, 0, 7}})});
   EXPECT_NEAR(*Length(*group), 2 * kPi + 7, 1e-9);
   EXPECT_NEAR(*Area(*group), kPi, 1e-9);

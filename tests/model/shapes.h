@@ -22,12 +22,12 @@ inline ElementPtr MakeCurve(geom::Curve curve) {
                      PlainAttributes(), nullptr, {});
 }
 
-inline ElementPtr MakeGroup(std::vector<ElementPtr> members,
-                            std::vector<NamedElements> names = {}) {
-  auto group = std::make_shared<Group>();
-  group->members = std::move(members);
-  group->names = std::move(names);
-  return MakeElement(kNoElement, GroupPtr(std::move(group)), PlainAttributes(), nullptr, {});
+inline ElementPtr MakeGroupOf(std::vector<ElementPtr> members,
+                              std::vector<NamedElements> names = {}) {
+  Group group;
+  group.members = std::move(members);
+  group.names = std::move(names);
+  return MakeElement(kNoElement, MakeGroup(std::move(group)), PlainAttributes(), nullptr, {});
 }
 
 inline ElementPtr MakeInstance(std::vector<ElementPtr> parts, const geom::Affine& world,

@@ -85,6 +85,18 @@ TEST(Value, AssignmentFromAnItemOfItself) {
   EXPECT_EQ(list.string(), "inner");
 }
 
+TEST(Value, DeepFunctionsAndRecordsAreFreedWithoutRecursion) {
+  const auto code = std::make_shared<const int>(1);
+  Value value = Value::Number(1);
+  for (int i = 0; i < 300'000; ++i) {
+    value = Value::OfClosure({code, {std::move(value)}});
+    value = Value::OfRecord({"nested", {{"inner", std::move(value)}}});
+  }
+  EXPECT_EQ(code.use_count(), 300'001);
+  value = {};
+  EXPECT_EQ(code.use_count(), 1);
+}
+
 TEST(Value, DeepNestingIsNoRecursion) {
   const auto nest = [] {
     Value value = Value::String("core");
