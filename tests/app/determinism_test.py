@@ -96,7 +96,9 @@ class Determinism(harness.ProgramTest):
             if harness.Options.sanitized and script.stem != "cruciform_dome":
                 continue
             with self.subTest(script=script.name):
-                first = self.bytes_of(script, script.stem + "/first", "--threads", "1")
+                journal = self.folder / (script.stem + ".jsonl")
+                first = self.bytes_of(script, script.stem + "/first", "--threads", "1", "--journal", journal)
+                self.assertEqual(self.tranos("replay", journal).status, 0)
                 self.assertEqual(self.bytes_of(script.name, script.stem + "/again", "--threads", "8",
                                                cwd=script.parent), first)
 
