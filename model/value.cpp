@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "model/value.h"
 
-#include <unordered_map>
-
 #include <algorithm>
-#include <iterator>
+#include <new>
+#include <unordered_map>
 
 #include "model/element.h"
 
@@ -106,20 +105,31 @@ void Value::DropReference() {
   }
 }
 
-// Lists, records and functions may nest deeper than the call stack: the values in one that goes with
-// this one move to a heap-allocated stack first, so that each that is deleted holds none any more.
+// Lists, records and functions may nest deeper than the call stack: the values in one that goes
+// with this one move to a heap-allocated stack first, so that each that is deleted holds none any
+// more. The stack begins as the list itself and takes only what may nest: freeing must not need
+// memory when there is none. Should it all the same, what is left is freed by recursion.
 void Value::FreeNested() {
   std::vector<Value> pending;
-  const auto take_from = [&pending](Kind kind, Heap* heap) {
+  const auto push = [&pending](Value& value) {
+    if (value.kind_ != Kind::kList && value.kind_ != Kind::kClosure && value.kind_ != Kind::kRecord)
+      return;
+    try {
+      pending.push_back(std::move(value));
+    } catch (const std::bad_alloc&) {
+    }
+  };
+  const auto take_from = [&](Kind kind, Heap* heap) {
     const auto take = [&](std::vector<Value>& values) {
-      std::move(values.begin(), values.end(), std::back_inserter(pending));
+      if (pending.capacity() == 0) return pending.swap(values);
+      for (Value& value : values) push(value);
       values.clear();
     };
     if (kind == Kind::kList) take(reinterpret_cast<HeapOf<std::vector<Value>>*>(heap)->content);
     if (kind == Kind::kClosure) take(reinterpret_cast<HeapOf<Closure>*>(heap)->content.captured);
     if (kind != Kind::kRecord) return;
     for (auto& [name, value] : reinterpret_cast<HeapOf<Record>*>(heap)->content.members) {
-      pending.push_back(std::move(value));
+      push(value);
     }
   };
   take_from(kind_, heap_);
