@@ -43,7 +43,7 @@ class Application {
   }
   void Put(ElementId id, Entry entry) {
     const Entry& before = entries()[id];
-    touched_ = true;
+    if (touched_.size() <= kFewTouched) touched_.push_back(id);
     Discount(before);
     Count(entry);
     state_.drawing.names.Follow(id, ContentOf(before), ContentOf(entry));
@@ -162,12 +162,17 @@ class Application {
     Drawing& drawing = state_.drawing;
     if (edit_.selection) {
       drawing.selection = StillInModel(Resolved(*edit_.selection));
-    } else if (touched_) {
+      drawing.selection.Rehash(entries());
+    } else if (Touches(drawing.selection)) {
       drawing.selection = StillInModel(drawing.selection);
+      drawing.selection.Rehash(entries());
     }
-    if (!made_or_changed_.empty()) drawing.last = Selection(made_or_changed_);
-    if (touched_ || edit_.selection) drawing.selection.Rehash(entries());
-    if (touched_ || !made_or_changed_.empty()) drawing.last.Rehash(entries());
+    if (!made_or_changed_.empty()) {
+      drawing.last = Selection(made_or_changed_);
+      drawing.last.Rehash(entries());
+    } else if (Touches(drawing.last)) {
+      drawing.last.Rehash(entries());
+    }
     if (edit_.settings) drawing.settings = *edit_.settings;
     if (edit_.view) drawing.view = std::make_shared<const View>(*edit_.view);
     if (edit_.last_point) drawing.last_point = *edit_.last_point;
@@ -175,6 +180,12 @@ class Application {
       state_.model.hidden_levels =
           std::make_shared<const std::vector<std::string>>(*edit_.hidden_levels);
     }
+  }
+  // Whether it may hold what has changed: looked up for a few, taken for granted of many.
+  bool Touches(const Selection& selection) const {
+    return touched_.size() > kFewTouched ||
+           std::any_of(touched_.begin(), touched_.end(),
+                       [&](ElementId id) { return selection.Contains(id); });
   }
   Selection Resolved(const Selection& selection) {
     const auto first_added = static_cast<ElementId>(first_added_);
@@ -192,13 +203,15 @@ class Application {
     return ids;
   }
 
+  static constexpr std::size_t kFewTouched = 8;
   State& state_;
   const Edit& edit_;
   const std::size_t first_added_ = state_.model.entries.size();
   ElementId next_id_ = 0;
   std::vector<Entry> new_members_;  // whose ids are next in line
   std::vector<ElementId> made_or_changed_;
-  bool touched_ = false;  // an entry that was there before has changed
+  // Entries that were there before and have changed; of many no more than tell that they are many.
+  std::vector<ElementId> touched_;
 };
 
 }  // namespace
