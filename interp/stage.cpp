@@ -443,7 +443,8 @@ void Stage::Name(const std::string& name, std::uint32_t index, bool in_turn, std
   }
   if (made.empty()) {
     Fail(Code::kNothingMade, span, "there is nothing to name `" + Printable(name) + "`", "",
-         "`as` follows what makes an element: place line … as " + Printable(name));
+         "`as` follows what makes an element: place line … as " + Printable(name) +
+             "; in a loop it stands inside, and names a list after it");
   }
   const model::NameBinding& binding = state_.drawing.names[index];
   if (in_turn ? binding.ids.size() > from : binding.given) {

@@ -25,7 +25,8 @@ std::string Rendered(const ScriptResult& result) {
   }
   for (const AssertResult& assertion : result.outcome.asserts) {
     if (!assertion.passed) {
-      out += assertion.text + ": it is " + assertion.value + ", expected " + assertion.expected + "\n";
+      out +=
+          assertion.text + ": it is " + assertion.value + ", expected " + assertion.expected + "\n";
     }
   }
   return out;

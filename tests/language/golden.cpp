@@ -257,8 +257,8 @@ std::string FormatText(const std::string& text, std::string* problem) {
   interp::Diagnostics diagnostics;
   const interp::SyntaxTree tree = interp::Parse(sources, 0, {}, &diagnostics);
   if (diagnostics.has_errors()) {
-    *problem = "it does not parse:\n" +
-               interp::RenderText(diagnostics.list()[0], sources, false) + text;
+    *problem =
+        "it does not parse:\n" + interp::RenderText(diagnostics.list()[0], sources, false) + text;
     return text;
   }
   return interp::Format(sources.files[0], tree);

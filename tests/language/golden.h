@@ -22,8 +22,8 @@ struct Golden {
   std::string text;
   std::vector<Expected> diagnostics;
   std::vector<std::string> prints;
-  std::vector<std::uint32_t> failed;     // lines of assertions that must fail
-  std::vector<std::string> undeclared;   // -D names that the script must not know
+  std::vector<std::uint32_t> failed;    // lines of assertions that must fail
+  std::vector<std::string> undeclared;  // -D names that the script must not know
   interp::BindOptions bind;
   interp::Limits limits;
   std::vector<std::string> mistakes;  // in the expectations themselves

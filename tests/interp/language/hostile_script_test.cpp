@@ -60,14 +60,16 @@ TEST(HostileScript, HundredThousandOfEachNesting) {
     const ScriptResult result = RunText("let a = " + Repeated(opening, 100'000));
     EXPECT_NE(FirstError(result).code, "") << opening;
   }
-  for (const char* opening : {"{", "if true {", "group {", "for i = 1 to 2 {", "if true { } else "}) {
+  for (const char* opening :
+       {"{", "if true {", "group {", "for i = 1 to 2 {", "if true { } else "}) {
     const ScriptResult result = RunText(Repeated(opening, 100'000));
     EXPECT_NE(FirstError(result).code, "") << opening;
   }
 }
 
 TEST(HostileScript, LongChainsAreNoNesting) {
-  const ScriptResult sum = RunText("let a = 1" + Repeated(" + 1", 100'000) + "\nassert a == 100001");
+  const ScriptResult sum =
+      RunText("let a = 1" + Repeated(" + 1", 100'000) + "\nassert a == 100001");
   EXPECT_EQ(FirstError(sum).code, "");
   ASSERT_EQ(sum.outcome.asserts.size(), 1u);
   EXPECT_TRUE(sum.outcome.asserts[0].passed);
@@ -78,8 +80,10 @@ TEST(HostileScript, LongChainsAreNoNesting) {
 
 TEST(HostileScript, InfiniteRecursionStopsAtTheLimitOfDepth) {
   EXPECT_EQ(FirstError(RunText("function f(n) = f(n + 1)\nlet a = f(1)")).code, "E0604");
-  EXPECT_EQ(FirstError(RunText("let f = x => x\nfunction g(n) = map([n], x => g(x))[0]\nlet a = g(1)")).code,
-            "E0604");
+  EXPECT_EQ(
+      FirstError(RunText("let f = x => x\nfunction g(n) = map([n], x => g(x))[0]\nlet a = g(1)"))
+          .code,
+      "E0604");
   EXPECT_EQ(FirstError(RunText("define place a { place b xy=0,0,0 }\n"
                                "define place b { place a xy=0,0,0 }\nplace a xy=0,0,0"))
                 .code,
@@ -98,11 +102,13 @@ TEST(HostileScript, DoublingStopsAtTheLimitOfMemory) {
   Limits limits;
   limits.memory = 1'000'000;
   const std::string text =
-      "let s = \"0123456789\"\nfunction twice(t, n) = if n == 0 then t else twice(\"{t}{t}\", n - 1)\n"
+      "let s = \"0123456789\"\nfunction twice(t, n) = if n == 0 then t else twice(\"{t}{t}\", n - "
+      "1)\n"
       "let a = twice(s, 60)";
   EXPECT_EQ(FirstError(RunText(text, limits)).code, "E0603");
   const std::string lists =
-      "function twice(t, n) = if n == 0 then t else twice(join(t, t), n - 1)\nlet a = twice([1, 2], 60)";
+      "function twice(t, n) = if n == 0 then t else twice(join(t, t), n - 1)\nlet a = twice([1, "
+      "2], 60)";
   EXPECT_NE(FirstError(RunText(lists, limits)).code, "");
 }
 
@@ -129,12 +135,14 @@ TEST(HostileScript, ArraysStopAtTheLimitOfElements) {
 }
 
 TEST(HostileScript, ControlCharactersAreShownEscaped) {
-  for (const char* text : {"let \x1b[31m = 3", "print \"{\x1b}\"", "place \x07 line", "let a\x01 = 2"}) {
+  for (const char* text :
+       {"let \x1b[31m = 3", "print \"{\x1b}\"", "place \x07 line", "let a\x01 = 2"}) {
     const ScriptResult result = RunText(text);
     ASSERT_NE(FirstError(result).code, "") << text;
     for (const Diagnostic& diagnostic : result.diagnostics.list()) {
       const std::string shown = RenderText(diagnostic, *result.sources, false);
-      for (const char c : shown) EXPECT_TRUE(c == '\n' || static_cast<unsigned char>(c) >= 32) << shown;
+      for (const char c : shown)
+        EXPECT_TRUE(c == '\n' || static_cast<unsigned char>(c) >= 32) << shown;
     }
   }
 }
@@ -146,7 +154,8 @@ TEST(HostileScript, AHundredErrorsAreEnough) {
 }
 
 TEST(HostileScript, ErrorsAreToldInTheOrderOfTheText) {
-  const ScriptResult result = RunText("let a = b\ndefine dome { }\nplace lin xy=0,0,0\nlet a = 3\n");
+  const ScriptResult result =
+      RunText("let a = b\ndefine dome { }\nplace lin xy=0,0,0\nlet a = 3\n");
   std::uint32_t before = 0;
   EXPECT_EQ(result.diagnostics.list().size(), 4u);
   for (const Diagnostic& diagnostic : result.diagnostics.list()) {
@@ -156,9 +165,36 @@ TEST(HostileScript, ErrorsAreToldInTheOrderOfTheText) {
 }
 
 TEST(HostileScript, EmptyAndStrangeTextsStand) {
-  for (const char* text : {"", "\n", ";", "|", "#", "\xef\xbb\xbf", "{", "}", "(", "\"", "=", "as", "reset",
-                           "last", "if", "for", "let", "use", "define", "group", "xy=", "place", "let a =",
-                           "print \"{\"", "print \"{}\"", "x", "1", "un=", "unit", "assert"}) {
+  for (const char* text : {"",
+                           "\n",
+                           ";",
+                           "|",
+                           "#",
+                           "\xef\xbb\xbf",
+                           "{",
+                           "}",
+                           "(",
+                           "\"",
+                           "=",
+                           "as",
+                           "reset",
+                           "last",
+                           "if",
+                           "for",
+                           "let",
+                           "use",
+                           "define",
+                           "group",
+                           "xy=",
+                           "place",
+                           "let a =",
+                           "print \"{\"",
+                           "print \"{}\"",
+                           "x",
+                           "1",
+                           "un=",
+                           "unit",
+                           "assert"}) {
     const ScriptResult result = RunText(text);
     FirstError(result);
   }
