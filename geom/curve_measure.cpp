@@ -170,7 +170,8 @@ std::optional<Frame> PlaneOf(const Curve& curve) {
 
 Result<double> EnclosedArea(const Curve& curve) {
   if (auto checked = Check(curve); !checked) return tl::unexpected(checked.error());
-  if (const auto* circle = std::get_if<Circle>(&curve)) return kPi * circle->radius * circle->radius;
+  if (const auto* circle = std::get_if<Circle>(&curve))
+    return kPi * circle->radius * circle->radius;
   if (!IsClosed(curve)) return tl::unexpected(Error{ErrorCode::kNotClosed, "the curve is open"});
   const std::optional<Frame> plane = PlaneOf(curve);
   if (!plane) {

@@ -25,7 +25,8 @@ Terms Merged(const Terms& a, double factor_a, const Terms& b, double factor_b) {
   Terms merged;
   merged.reserve(a.size() + b.size());
   const auto add = [&](model::SourceId source, double slope) {
-    if (slope != 0) merged.emplace_back(source, FiniteOr(slope, "the result's deviation is not finite"));
+    if (slope != 0)
+      merged.emplace_back(source, FiniteOr(slope, "the result's deviation is not finite"));
   };
   auto from_a = a.begin();
   auto from_b = b.begin();
@@ -55,7 +56,8 @@ Terms SumOf(std::span<const Scaled> parts) {
   static const Terms kNone;
   if (parts.empty()) return {};
   if (parts.size() == 1) return Merged(*parts[0].terms, parts[0].factor, kNone, 0);
-  if (parts.size() == 2) return Merged(*parts[0].terms, parts[0].factor, *parts[1].terms, parts[1].factor);
+  if (parts.size() == 2)
+    return Merged(*parts[0].terms, parts[0].factor, *parts[1].terms, parts[1].factor);
   const std::size_t half = parts.size() / 2;
   return Merged(SumOf(parts.first(half)), 1, SumOf(parts.subspan(half)), 1);
 }
@@ -66,7 +68,8 @@ Value Combine(double value, Dimension dimension, std::span<const Term> terms) {
   FiniteOr(value, "the result is not a finite number");
   std::vector<Scaled> parts;
   for (const auto& [number, slope] : terms) {
-    if (const model::Derivatives* derivatives = number->derivatives()) parts.push_back({&derivatives->terms, slope});
+    if (const model::Derivatives* derivatives = number->derivatives())
+      parts.push_back({&derivatives->terms, slope});
   }
   if (parts.empty()) return Value::Number(value, dimension);
   Terms all = SumOf(parts);
@@ -76,7 +79,8 @@ Value Combine(double value, Dimension dimension, std::span<const Term> terms) {
 
 std::uint64_t DeviationSteps(const Value& value) {
   constexpr std::uint64_t kTermsPerStep = 8;
-  if (const model::Derivatives* derivatives = value.derivatives()) return derivatives->terms.size() / kTermsPerStep;
+  if (const model::Derivatives* derivatives = value.derivatives())
+    return derivatives->terms.size() / kTermsPerStep;
   std::uint64_t steps = 0;
   if (IsVector(value)) {
     for (const Value& item : value.list()) steps += DeviationSteps(item);
@@ -121,7 +125,8 @@ Value ReadBare(const Value& number, Dimension dimension, const Unit& unit) {
     return number;
   }
   const double factor = BareFactor(dimension, unit);
-  const double value = dimension == model::kLength ? InSi(number.number(), unit) : number.number() * factor;
+  const double value =
+      dimension == model::kLength ? InSi(number.number(), unit) : number.number() * factor;
   return Combine(value, dimension, {{&number, factor}});
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Arithmetic on values: dimensions are checked, bare numbers beside a length are read in the working
-// unit, and derivatives are carried to first order. All throw OpFailure.
+// Arithmetic on values: dimensions are checked, bare numbers beside a length are read in the
+// working unit, and derivatives are carried to first order. All throw OpFailure.
 #pragma once
 
 #include <string>
@@ -21,13 +21,15 @@ using SourceList = std::vector<Source>;
 
 // What arithmetic needs of its surroundings.
 struct Context {
-  const Unit* unit;      // in which bare numbers are read where a length is meant
+  const Unit* unit;  // in which bare numbers are read where a length is meant
   SourceList* sources;
 };
 
-model::Value Binary(Op op, const model::Value& left, const model::Value& right, const Context& context);
+model::Value Binary(Op op, const model::Value& left, const model::Value& right,
+                    const Context& context);
 model::Value Negate(const model::Value& value);
-// value ± deviation: a new source with that standard deviation; `relative` takes it as a share of the value.
+// value ± deviation: a new source with that standard deviation; `relative` takes it as a share of
+// the value.
 model::Value PlusMinus(const model::Value& value, const model::Value& deviation, bool relative,
                        const Context& context);
 // The standard deviation of a number: 0 for one without sources.
@@ -35,7 +37,8 @@ double Sigma(const model::Value& number, const SourceList& sources);
 // What carrying the deviation of a number or a point through one operation counts for.
 std::uint64_t DeviationSteps(const model::Value& value);
 // f(x) with its derivative, for functions of one number.
-model::Value Chain(const model::Value& x, double value, double derivative, model::Dimension dimension);
+model::Value Chain(const model::Value& x, double value, double derivative,
+                   model::Dimension dimension);
 // Brings two numbers to one dimension as `+` does; true where that is possible.
 bool Align(model::Value* left, model::Value* right, const Unit& unit);
 // The unit with its `shares`, so that InSi rounds but once.

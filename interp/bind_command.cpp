@@ -60,13 +60,15 @@ void Binder::UnknownCommand(const std::vector<NodeId>& words) {
   std::string help = meant ? "did you mean `" + *meant + "`?" : "tranos help lists the commands";
   if (!meant && begun.size() > 1) {
     help = "commands that begin so:";
-    for (std::size_t i = 0; i < begun.size() && i < 6; ++i) help += (i ? ", `" : " `") + begun[i] + "`";
+    for (std::size_t i = 0; i < begun.size() && i < 6; ++i)
+      help += (i ? ", `" : " `") + begun[i] + "`";
   }
   Error(Code::kUnknownCommand, span, "there is no command `" + Printable(joined) + "`", "", help);
 }
 
 std::uint32_t Binder::UseOf(const Command* row, std::int32_t definition) {
-  const auto [found, is_new] = uses_.emplace(row, static_cast<std::uint32_t>(program_->rows.size()));
+  const auto [found, is_new] =
+      uses_.emplace(row, static_cast<std::uint32_t>(program_->rows.size()));
   if (is_new) {
     program_->rows.push_back(row);
     program_->row_definition.push_back(definition);
@@ -120,16 +122,26 @@ void Binder::BindArguments(const std::vector<NodeId>& args, std::size_t first, c
       case NodeKind::kString:
         if (!row || row->string_key.empty()) {
           Error(Code::kUnknownWord, SpanOf(arg), "a string has no meaning here", "",
-                row ? "`" + std::string(row->words) + "` takes no string by itself" : "give it as a key: key=\"…\"");
+                row ? "`" + std::string(row->words) + "` takes no string by itself"
+                    : "give it as a key: key=\"…\"");
           break;
         }
-        Emit({Op::kBareString, 0, 0, 0, ConvertedOperand(Expression(arg), Type::kString, false, row->string_key, SpanOf(arg)), 0},
+        Emit({Op::kBareString, 0, 0, 0,
+              ConvertedOperand(Expression(arg), Type::kString, false, row->string_key, SpanOf(arg)),
+              0},
              SpanOf(arg));
         break;
-      case NodeKind::kKeyIn: BindKeyIn(arg, statement); break;
-      case NodeKind::kReset: Emit({Op::kReset}, SpanOf(arg)); break;
-      case NodeKind::kNaming: BindNaming(arg); break;
-      default: break;
+      case NodeKind::kKeyIn:
+        BindKeyIn(arg, statement);
+        break;
+      case NodeKind::kReset:
+        Emit({Op::kReset}, SpanOf(arg));
+        break;
+      case NodeKind::kNaming:
+        BindNaming(arg);
+        break;
+      default:
+        break;
     }
     builder_->next_register = mark;
   }
@@ -160,7 +172,9 @@ bool Binder::BindWord(NodeId id, const Command* row) {
     return true;
   }
   const std::string in_text =
-      row && !row->string_key.empty() ? "`" + std::string(row->words) + " \"{" + word + "}\"` shows it in a text" : "";
+      row && !row->string_key.empty()
+          ? "`" + std::string(row->words) + " \"{" + word + "}\"` shows it in a text"
+          : "";
   if (KindOf(id) == NodeKind::kNumber) {
     Error(Code::kUnknownWord, SpanOf(id), "a number has no meaning here", "",
           in_text.empty() ? "values are given by key=" : in_text);
@@ -210,11 +224,13 @@ void Binder::BindKeyIn(NodeId id, std::uint32_t statement) {
       if (LowerCase(declared.name) != key) continue;
       if (row->manner == Manner::kImmediate && owner->command_statement != statement) {
         const std::string text = Text(id);
-        return Error(Code::kKeyAfterSeparator, SpanOf(id),
-                     "`" + std::string(row->words) + "` has run already when `" + key + "=` is given", "",
-                     "write it in one statement: `" + std::string(row->words) + " " + Printable(text) + "`");
+        return Error(
+            Code::kKeyAfterSeparator, SpanOf(id),
+            "`" + std::string(row->words) + "` has run already when `" + key + "=` is given", "",
+            "write it in one statement: `" + std::string(row->words) + " " + Printable(text) + "`");
       }
-      const Operand value = Typed(values, declared.type, declared.list, declared.words, declared.name, id);
+      const Operand value =
+          Typed(values, declared.type, declared.list, declared.words, declared.name, id);
       Span span = SpanOf(values.front());
       span.end = SpanOf(values.back()).end;
       Emit({Op::kParameterKey, 0, 0, static_cast<std::uint32_t>(i), value, 0}, span);
@@ -244,7 +260,8 @@ void Binder::UnknownKey(NodeId word, const Command* row) {
     for (const SettingRow& setting : AllSettings()) help += " " + std::string(setting.key);
   }
   Error(Code::kUnknownKey, SpanOf(word),
-        row ? "neither `" + std::string(row->words) + "` nor the settings have a key `" + Printable(key) + "`"
+        row ? "neither `" + std::string(row->words) + "` nor the settings have a key `" +
+                  Printable(key) + "`"
             : "no setting is called `" + Printable(key) + "`, and no command is active here",
         "", help);
 }
@@ -268,8 +285,11 @@ void Binder::BindPoint(NodeId id, const PointKeyRow& row, const std::vector<Node
   const Span span = SpanOf(id);
   const auto kind = static_cast<std::uint8_t>(row.kind);
   const auto packed = static_cast<std::uint8_t>(kind | kPackedPoint);
-  if (row.kind == PointKey::kOn || (count == 1 && row.kind != PointKey::kDl && row.kind != PointKey::kDx)) {
-    Emit({Op::kPoint, packed, 0, 0, single(values[0], row.kind == PointKey::kOn ? Type::kAny : Type::kPoint), 1}, span);
+  if (row.kind == PointKey::kOn ||
+      (count == 1 && row.kind != PointKey::kDl && row.kind != PointKey::kDx)) {
+    Emit({Op::kPoint, packed, 0, 0,
+          single(values[0], row.kind == PointKey::kOn ? Type::kAny : Type::kPoint), 1},
+         span);
     return;
   }
   std::vector<Value> constants;
@@ -285,7 +305,8 @@ void Binder::BindPoint(NodeId id, const PointKeyRow& row, const std::vector<Node
     }
   }
   if (static_cast<int>(constants.size()) == count) {
-    Emit({Op::kPoint, packed, 0, 0, AddConstant(Value::List(std::move(constants))), static_cast<std::uint32_t>(count)},
+    Emit({Op::kPoint, packed, 0, 0, AddConstant(Value::List(std::move(constants))),
+          static_cast<std::uint32_t>(count)},
          span);
     return;
   }
@@ -297,7 +318,8 @@ void Binder::BindPoint(NodeId id, const PointKeyRow& row, const std::vector<Node
     // dl= and dx= take a whole offset as one value, too.
     if (count == 1) break;
     const Type type = row.kind == PointKey::kDi && i == 1 ? Type::kAngle : Type::kLength;
-    Emit({Op::kConvert, static_cast<std::uint8_t>(type), scope_->measure, target, target, AddText(row.key)},
+    Emit({Op::kConvert, static_cast<std::uint8_t>(type), scope_->measure, target, target,
+          AddText(row.key)},
          SpanOf(value));
   }
   Emit({Op::kPoint, kind, scope_->measure, 0, first, static_cast<std::uint32_t>(count)}, span);
@@ -313,11 +335,13 @@ void Binder::BindSetting(NodeId id, const SettingRow& row, const std::vector<Nod
         if (unit_of_measure.dimension == model::kLength) lengths.push_back(unit_of_measure.name);
       }
       const auto meant = DidYouMean(name, lengths);
-      return Error(Code::kUnknownUnit, SpanOf(values[0]), "`un=` takes a unit of length by its name", "",
-                   meant ? "did you mean `" + *meant + "`?" : "m cm mm km ft in, or one declared by `unit`");
+      return Error(
+          Code::kUnknownUnit, SpanOf(values[0]), "`un=` takes a unit of length by its name", "",
+          meant ? "did you mean `" + *meant + "`?" : "m cm mm km ft in, or one declared by `unit`");
     }
     scope_->measure = *index;
-    Emit({Op::kSetting, static_cast<std::uint8_t>(row.setting), *index, 0, AddText(name), 0}, SpanOf(id));
+    Emit({Op::kSetting, static_cast<std::uint8_t>(row.setting), *index, 0, AddText(name), 0},
+         SpanOf(id));
     return;
   }
   const Operand value = Typed(values, row.type, false, row.words, row.key, id);
@@ -326,25 +350,31 @@ void Binder::BindSetting(NodeId id, const SettingRow& row, const std::vector<Nod
   Emit({Op::kSetting, static_cast<std::uint8_t>(row.setting), scope_->measure, 0, value, 0}, span);
 }
 
-// `as NAME`: the name belongs to the nearest script, group or definition; in a loop it means this turn's.
+// `as NAME`: the name belongs to the nearest script, group or definition; in a loop it means this
+// turn's.
 void Binder::BindNaming(NodeId id) {
   const NodeId node = tree()[id].first_child;
   const std::string name = Text(node);
   if (!CheckName(name, SpanOf(node))) return;
   if (in_definition_ && name == "void") {
-    return Error(Code::kNotYet, SpanOf(node), "a part named `void` is cut from a wall, which is not there yet",
+    return Error(Code::kNotYet, SpanOf(node),
+                 "a part named `void` is cut from a wall, which is not there yet",
                  "part of the language, but not of this version");
   }
   const auto interface = NamesScope()->interfaces.find(name);
   if (interface != NamesScope()->interfaces.end()) {
-    return Error(Code::kBoundTwice, SpanOf(node), "`" + name + "` is an interface already", "named again here",
-                 "parameters, parts and interfaces have names of their own", {{interface->second, "declared here"}});
+    return Error(Code::kBoundTwice, SpanOf(node), "`" + name + "` is an interface already",
+                 "named again here", "parameters, parts and interfaces have names of their own",
+                 {{interface->second, "declared here"}});
   }
   Scope* owner = scope_;
   while (!owner->opens_names && !owner->is_turn) owner = owner->parent;
   const std::uint32_t name_scope = NamesScope()->name_scope;
   const std::uint32_t index = NameIndex(name_scope, name);
-  Symbol symbol{.kind = Symbol::kElementName, .unit = builder_->id, .index = index, .scope = name_scope,
+  Symbol symbol{.kind = Symbol::kElementName,
+                .unit = builder_->id,
+                .index = index,
+                .scope = name_scope,
                 .declared = SpanOf(node)};
   std::uint32_t from = 0;
   std::uint8_t in_turn = 0;
@@ -360,13 +390,14 @@ void Binder::BindNaming(NodeId id) {
   const Symbol* other = nullptr;
   for (const Scope* scope = scope_;; scope = scope->parent) {
     const auto known = scope->symbols.find(name);
-    if (!other && known != scope->symbols.end() && known->second.kind != Symbol::kElementName) other = &known->second;
+    if (!other && known != scope->symbols.end() && known->second.kind != Symbol::kElementName)
+      other = &known->second;
     if (scope->opens_names) break;
   }
   const auto found = owner->symbols.find(name);
   if (other) {
-    return Error(Code::kBoundTwice, SpanOf(node), "`" + name + "` is bound already", "named again here", "",
-                 {{other->declared, "first bound here"}});
+    return Error(Code::kBoundTwice, SpanOf(node), "`" + name + "` is bound already",
+                 "named again here", "", {{other->declared, "first bound here"}});
   }
   if (found == owner->symbols.end()) owner->symbols.emplace(name, symbol);
   Emit({Op::kName, in_turn, 0, AddText(name), from, index}, SpanOf(node));

@@ -15,18 +15,25 @@ constexpr Prompt kWhere[] = {{"where"}};
 std::optional<model::Dimension> DimensionOf(Type type) {
   switch (type) {
     case Type::kNumber:
-    case Type::kCount: return model::kPlain;
-    case Type::kLength: return model::kLength;
-    case Type::kArea: return model::kArea;
-    case Type::kVolume: return model::kVolume;
-    case Type::kAngle: return model::kAngle;
-    default: return std::nullopt;
+    case Type::kCount:
+      return model::kPlain;
+    case Type::kLength:
+      return model::kLength;
+    case Type::kArea:
+      return model::kArea;
+    case Type::kVolume:
+      return model::kVolume;
+    case Type::kAngle:
+      return model::kAngle;
+    default:
+      return std::nullopt;
   }
 }
 
 }  // namespace
 
-// Functions and definitions are known in their whole block, so they are declared before its statements are bound.
+// Functions and definitions are known in their whole block, so they are declared before its
+// statements are bound.
 void Binder::Predeclare(const std::vector<NodeId>& statements) {
   const bool has_code = std::any_of(statements.begin(), statements.end(), [&](NodeId id) {
     return KindOf(id) == NodeKind::kFunction || KindOf(id) == NodeKind::kDefine;
@@ -40,8 +47,8 @@ void Binder::Predeclare(const std::vector<NodeId>& statements) {
     }
   }
   for (NodeId id : has_code ? lets : std::vector<NodeId>{}) {
-    // A function may be called before a let that it uses: the let's register is its own from the block's
-    // beginning, and empty until it is bound.
+    // A function may be called before a let that it uses: the let's register is its own from the
+    // block's beginning, and empty until it is bound.
     if (let_registers_.contains(id)) continue;
     const std::uint32_t reg = NewRegister();
     let_registers_[id] = reg;
@@ -59,7 +66,8 @@ void Binder::PredeclareFunction(NodeId id) {
   predeclared_[id] = inner;
   const int parameters = static_cast<int>(Kids(kids[1]).size());
   program_->units[inner].parameters = static_cast<std::uint32_t>(parameters);
-  Declare(Text(kids[0]), {.kind = Symbol::kFunction, .unit = inner, .parameters = parameters}, SpanOf(kids[0]));
+  Declare(Text(kids[0]), {.kind = Symbol::kFunction, .unit = inner, .parameters = parameters},
+          SpanOf(kids[0]));
 }
 
 void Binder::BindFunction(NodeId id) {
@@ -114,7 +122,8 @@ std::optional<DefinedParameter> Binder::DeclareParameter(NodeId param) {
     }
   }
   if (out.type == Type::kWord && out.words.empty()) {
-    Error(Code::kMissingValue, out.span, "the parameter `" + out.name + "` is a word, but its words are not listed", "",
+    Error(Code::kMissingValue, out.span,
+          "the parameter `" + out.name + "` is a word, but its words are not listed", "",
           "list them: " + out.name + " : word = shell in outline, shell; or make it a `string`");
     return std::nullopt;
   }
@@ -129,8 +138,8 @@ void Binder::PredeclareDefinition(NodeId id) {
   }
   definition.span = SpanOf(kids[0]);
   if (definition.words == "place") {
-    Error(Code::kReservedName, definition.span, "a definition's words are `place` and what is placed", "",
-          "define place dome");
+    Error(Code::kReservedName, definition.span,
+          "a definition's words are `place` and what is placed", "", "define place dome");
     return;
   }
   if (definition.words.rfind("place ", 0) != 0) {
@@ -139,12 +148,14 @@ void Binder::PredeclareDefinition(NodeId id) {
     return;
   }
   if (const Command* built_in = FindCommand(definition.words)) {
-    Error(Code::kBuiltinWords, definition.span, "`" + std::string(built_in->words) + "` is a command already", "",
+    Error(Code::kBuiltinWords, definition.span,
+          "`" + std::string(built_in->words) + "` is a command already", "",
           "add a word: `" + definition.words + " …`");
     return;
   }
   if (scope_->definitions.contains(definition.words)) {
-    Error(Code::kBoundTwice, definition.span, "`" + definition.words + "` is defined already in this block");
+    Error(Code::kBoundTwice, definition.span,
+          "`" + definition.words + "` is defined already in this block");
     return;
   }
   for (std::size_t i = 1; i < kids.size(); ++i) {
@@ -159,7 +170,8 @@ void Binder::PredeclareDefinition(NodeId id) {
   definition.unit = NewUnit(definition.words);
   program_->scopes.emplace_back();
   definition.scope = static_cast<std::uint32_t>(program_->scopes.size() - 1);
-  program_->units[definition.unit].parameters = static_cast<std::uint32_t>(definition.parameters.size());
+  program_->units[definition.unit].parameters =
+      static_cast<std::uint32_t>(definition.parameters.size());
   const auto index = static_cast<std::uint32_t>(program_->definitions.size());
   const std::string words = definition.words;
   program_->definitions.push_back(std::move(definition));
@@ -187,7 +199,8 @@ void Binder::EmitParameter(NodeId param, const DefinedParameter& declared, std::
   const std::uint32_t given = Emit({Op::kJumpIfGiven, 0, 0, 0, reg, 0}, declared.span);
   for (NodeId kid : Kids(param)) {
     if (KindOf(kid) != NodeKind::kDefault) continue;
-    const Operand value = Typed(Kids(kid), declared.type, declared.list, declared.words, declared.name, kid);
+    const Operand value =
+        Typed(Kids(kid), declared.type, declared.list, declared.words, declared.name, kid);
     if (value != reg) Emit({Op::kMove, 0, 0, reg, value, 0}, SpanOf(kid));
   }
   Patch(given, Here());
@@ -201,7 +214,8 @@ void Binder::EmitRangeCheck(NodeId param, const DefinedParameter& declared, std:
     Operand range;
     if (declared.type == Type::kWord) {
       std::vector<Value> words;
-      for (const std::string& word : SplitWords(declared.words)) words.push_back(Value::String(word));
+      for (const std::string& word : SplitWords(declared.words))
+        words.push_back(Value::String(word));
       range = AddConstant(Value::List(std::move(words)));
     } else if (values.size() == 1) {
       range = Expression(values[0]);
@@ -238,7 +252,8 @@ void Binder::BindDefine(NodeId id) {
     EmitParameter(kid, parameter, static_cast<std::uint32_t>(number));
     builder.next_register = mark;
     Declare(parameter.name,
-            {.unit = builder.id, .index = static_cast<std::uint32_t>(number),
+            {.unit = builder.id,
+             .index = static_cast<std::uint32_t>(number),
              .dimension = parameter.list ? std::nullopt : DimensionOf(parameter.type)},
             parameter.span);
     ++number;
@@ -257,7 +272,8 @@ void Binder::BindDefine(NodeId id) {
 }
 
 // The value of -D is bound as a text of its own, so that its errors show where it was given.
-void Binder::BindGivenValue(const DefinedParameter& declared, const std::string& given, std::uint32_t reg) {
+void Binder::BindGivenValue(const DefinedParameter& declared, const std::string& given,
+                            std::uint32_t reg) {
   program_->sources->files.push_back(MakeSource("-D", declared.name + "=" + given));
   const auto file = static_cast<std::uint32_t>(program_->sources->files.size() - 1);
   Diagnostics parsing;
@@ -270,10 +286,12 @@ void Binder::BindGivenValue(const DefinedParameter& declared, const std::string&
     if (keys.size() == 1 && KindOf(keys[0]) == NodeKind::kKeyIn) {
       auto values = Kids(keys[0]);
       values.erase(values.begin());
-      const Operand operand = Typed(values, declared.type, declared.list, declared.words, declared.name, keys[0]);
+      const Operand operand =
+          Typed(values, declared.type, declared.list, declared.words, declared.name, keys[0]);
       Emit({Op::kMove, 0, 0, reg, operand, 0}, SpanOf(keys[0]));
     } else {
-      Error(Code::kUnexpectedToken, SpanOf(tree_->root), "-D gives a parameter its value, and nothing else",
+      Error(Code::kUnexpectedToken, SpanOf(tree_->root),
+            "-D gives a parameter its value, and nothing else",
             "expected a value such as -D " + declared.name + "=14m");
     }
   }
@@ -283,8 +301,8 @@ void Binder::BindGivenValue(const DefinedParameter& declared, const std::string&
 void Binder::BindParameterStatement(NodeId id) {
   const NodeId param = Kids(id)[0];
   if (!at_top_ || in_used_file_ || in_definition_) {
-    return Error(Code::kMisplaced, SpanOf(id), "`parameter` stands at the top of a script", "inside a block here",
-                 "a definition's parameters stand before its `{`");
+    return Error(Code::kMisplaced, SpanOf(id), "`parameter` stands at the top of a script",
+                 "inside a block here", "a definition's parameters stand before its `{`");
   }
   const auto declared = DeclareParameter(param);
   if (!declared) return;
@@ -300,13 +318,15 @@ void Binder::BindParameterStatement(NodeId id) {
     BindGivenValue(*declared, *given, reg);
     EmitRangeCheck(param, *declared, reg);
   } else if (declared->standard.empty()) {
-    Error(Code::kMissingValue, declared->span, "the parameter `" + declared->name + "` has no value", "",
+    Error(Code::kMissingValue, declared->span,
+          "the parameter `" + declared->name + "` has no value", "",
           "give it a default, or run with -D " + declared->name + "=…");
   } else {
     Emit({Op::kMove, 0, 0, reg, AddConstant(Value()), 0}, declared->span);
     EmitParameter(param, *declared, reg);
   }
-  Declare(declared->name, {.unit = builder_->id, .index = reg, .dimension = DimensionOf(declared->type)},
+  Declare(declared->name,
+          {.unit = builder_->id, .index = reg, .dimension = DimensionOf(declared->type)},
           declared->span);
   program_->parameters.push_back(*declared);
   builder_->next_register = reg + 1;
@@ -319,14 +339,16 @@ void Binder::DeclareInterface(NodeId name_node) {
   if (!CheckName(name, span)) return;
   Scope* const owner = NamesScope();
   const auto refuse = [&](std::string_view kind, Span declared) {
-    Error(Code::kBoundTwice, span, "`" + name + "` is " + std::string(kind) + " already", "named again here",
-          "parameters, parts and interfaces have names of their own", {{declared, "declared here"}});
+    Error(Code::kBoundTwice, span, "`" + name + "` is " + std::string(kind) + " already",
+          "named again here", "parameters, parts and interfaces have names of their own",
+          {{declared, "declared here"}});
   };
   const auto found = owner->symbols.find(name);
   if (found != owner->symbols.end()) {
     const Symbol& symbol = found->second;
     if (symbol.kind == Symbol::kElementName) return refuse("a part", symbol.declared);
-    if (symbol.unit == builder_->id && symbol.index < unit().parameters) return refuse("a parameter", symbol.declared);
+    if (symbol.unit == builder_->id && symbol.index < unit().parameters)
+      return refuse("a parameter", symbol.declared);
   }
   owner->interfaces.emplace(name, span);
 }
@@ -334,7 +356,8 @@ void Binder::DeclareInterface(NodeId name_node) {
 void Binder::BindInterface(NodeId id) {
   const auto kids = Kids(id);
   if (!in_definition_) {
-    return Error(Code::kMisplaced, SpanOf(id), "`interface` stands in a definition", "outside of one here");
+    return Error(Code::kMisplaced, SpanOf(id), "`interface` stands in a definition",
+                 "outside of one here");
   }
   DeclareInterface(kids[0]);
   const auto count = static_cast<std::uint32_t>(kids.size() - 1);
@@ -351,15 +374,18 @@ void Binder::BindInterface(NodeId id) {
     const bool is_frame = is_direction || lower == "at";
     if (!is_frame) CheckName(key, SpanOf(Kids(kids[i + 1])[0]));
     if (lower == "name" || lower == "plane") {
-      Error(Code::kReservedName, SpanOf(Kids(kids[i + 1])[0]), "an interface has a `" + lower + "` of its own", "",
+      Error(Code::kReservedName, SpanOf(Kids(kids[i + 1])[0]),
+            "an interface has a `" + lower + "` of its own", "",
             "choose another name for the measure");
     }
-    const Operand value = Typed(parts, is_frame ? Type::kPoint : Type::kAny, false, "", key, kids[i + 1]);
+    const Operand value =
+        Typed(parts, is_frame ? Type::kPoint : Type::kAny, false, "", key, kids[i + 1]);
     Emit({Op::kMove, 0, 0, first + 2 * i, AddText(is_frame ? lower : key), 0}, SpanOf(kids[i + 1]));
     Emit({Op::kMove, 0, 0, first + 2 * i + 1, value, 0}, SpanOf(kids[i + 1]));
   }
   if (!has_place) {
-    Error(Code::kMissingValue, SpanOf(id), "an interface needs its place", "", "interface NAME at=[x, y, z]");
+    Error(Code::kMissingValue, SpanOf(id), "an interface needs its place", "",
+          "interface NAME at=[x, y, z]");
   }
   Emit({Op::kInterface, 0, 0, AddText(Text(kids[0])), first, count}, SpanOf(kids[0]));
 }

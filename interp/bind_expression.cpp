@@ -14,33 +14,53 @@ namespace {
 
 Op OpOf(Operator op) {
   switch (op) {
-    case Operator::kEqual: return Op::kEqual;
-    case Operator::kNotEqual: return Op::kNotEqual;
-    case Operator::kLess: return Op::kLess;
-    case Operator::kLessEqual: return Op::kLessEqual;
-    case Operator::kGreater: return Op::kGreater;
-    case Operator::kGreaterEqual: return Op::kGreaterEqual;
-    case Operator::kWithin: return Op::kWithin;
-    case Operator::kConsistent: return Op::kConsistent;
-    case Operator::kRange: return Op::kMakeRange;
-    case Operator::kPlusMinus: return Op::kPlusMinus;
-    case Operator::kAdd: return Op::kAdd;
-    case Operator::kSubtract: return Op::kSubtract;
-    case Operator::kMultiply: return Op::kMultiply;
-    case Operator::kDivide: return Op::kDivide;
-    case Operator::kModulo: return Op::kModulo;
-    case Operator::kPower: return Op::kPower;
-    case Operator::kNot: return Op::kNot;
-    case Operator::kNegate: return Op::kNegate;
+    case Operator::kEqual:
+      return Op::kEqual;
+    case Operator::kNotEqual:
+      return Op::kNotEqual;
+    case Operator::kLess:
+      return Op::kLess;
+    case Operator::kLessEqual:
+      return Op::kLessEqual;
+    case Operator::kGreater:
+      return Op::kGreater;
+    case Operator::kGreaterEqual:
+      return Op::kGreaterEqual;
+    case Operator::kWithin:
+      return Op::kWithin;
+    case Operator::kConsistent:
+      return Op::kConsistent;
+    case Operator::kRange:
+      return Op::kMakeRange;
+    case Operator::kPlusMinus:
+      return Op::kPlusMinus;
+    case Operator::kAdd:
+      return Op::kAdd;
+    case Operator::kSubtract:
+      return Op::kSubtract;
+    case Operator::kMultiply:
+      return Op::kMultiply;
+    case Operator::kDivide:
+      return Op::kDivide;
+    case Operator::kModulo:
+      return Op::kModulo;
+    case Operator::kPower:
+      return Op::kPower;
+    case Operator::kNot:
+      return Op::kNot;
+    case Operator::kNegate:
+      return Op::kNegate;
     case Operator::kOr:
-    case Operator::kAnd: break;  // not one instruction: they do not evaluate their right side for nothing
+    case Operator::kAnd:
+      break;  // not one instruction: they do not evaluate their right side for nothing
   }
   return Op::kHalt;
 }
 
 // Measures that are lengths, areas and volumes wherever they occur.
 std::optional<Dimension> DimensionOfMember(std::string_view name) {
-  if (name == "length" || name == "radius" || name == "x" || name == "y" || name == "z") return model::kLength;
+  if (name == "length" || name == "radius" || name == "x" || name == "y" || name == "z")
+    return model::kLength;
   if (name == "area") return model::kArea;
   if (name == "volume") return model::kVolume;
   return std::nullopt;
@@ -69,16 +89,23 @@ void Binder::ExpressionInto(std::uint32_t target, NodeId id) {
   }
   constexpr int kDeepest = 1000;  // the parser bounds nesting; this bounds chains such as a.b.c.d
   if (depth_ >= kDeepest) {
-    Error(Code::kTooDeep, SpanOf(id), "the expression is nested too deeply", "", "bind parts of it with `let`");
+    Error(Code::kTooDeep, SpanOf(id), "the expression is nested too deeply", "",
+          "bind parts of it with `let`");
     return;
   }
   ++depth_;
   const std::uint32_t mark = builder_->next_register;
   const Node& node = tree()[id];
   switch (node.kind) {
-    case NodeKind::kConditional: ConditionalInto(target, id); break;
-    case NodeKind::kLambda: LambdaInto(target, id); break;
-    case NodeKind::kBinary: BinaryInto(target, id); break;
+    case NodeKind::kConditional:
+      ConditionalInto(target, id);
+      break;
+    case NodeKind::kLambda:
+      LambdaInto(target, id);
+      break;
+    case NodeKind::kBinary:
+      BinaryInto(target, id);
+      break;
     case NodeKind::kUnary: {
       const Operand operand = Expression(node.first_child);
       const Op op = OpOf(static_cast<Operator>(node.detail));
@@ -88,7 +115,8 @@ void Binder::ExpressionInto(std::uint32_t target, NodeId id) {
     case NodeKind::kMember: {
       const auto kids = Kids(id);
       const Operand object = Expression(kids[0]);
-      Emit({Op::kMember, 0, scope_->measure, target, object, AddText(Text(kids[1]))}, SpanOf(kids[1]));
+      Emit({Op::kMember, 0, scope_->measure, target, object, AddText(Text(kids[1]))},
+           SpanOf(kids[1]));
       break;
     }
     case NodeKind::kIndex: {
@@ -98,13 +126,26 @@ void Binder::ExpressionInto(std::uint32_t target, NodeId id) {
       Emit({Op::kIndex, 0, scope_->measure, target, list, index}, SpanOf(kids[1]));
       break;
     }
-    case NodeKind::kCall: CallInto(target, id); break;
-    case NodeKind::kString: StringInto(target, id); break;
-    case NodeKind::kName: NameInto(target, id); break;
-    case NodeKind::kLast: Emit({Op::kLoadLast, 0, 0, target, 0, 0}, SpanOf(id)); break;
-    case NodeKind::kParen: ExpressionInto(target, node.first_child); break;
-    case NodeKind::kList: ListInto(target, Kids(id), id); break;
-    default: break;  // an error node, reported by the parser
+    case NodeKind::kCall:
+      CallInto(target, id);
+      break;
+    case NodeKind::kString:
+      StringInto(target, id);
+      break;
+    case NodeKind::kName:
+      NameInto(target, id);
+      break;
+    case NodeKind::kLast:
+      Emit({Op::kLoadLast, 0, 0, target, 0, 0}, SpanOf(id));
+      break;
+    case NodeKind::kParen:
+      ExpressionInto(target, node.first_child);
+      break;
+    case NodeKind::kList:
+      ListInto(target, Kids(id), id);
+      break;
+    default:
+      break;  // an error node, reported by the parser
   }
   builder_->next_register = mark;
   --depth_;
@@ -125,7 +166,8 @@ std::optional<Value> Binder::NumberConstant(NodeId id, bool percent_is_share) {
     span.begin = span.end - static_cast<std::uint32_t>(literal.unit.size());
     const auto meant = DidYouMean(literal.unit, names);
     Error(Code::kUnknownUnit, span, "there is no unit `" + std::string(literal.unit) + "`", "",
-          meant ? "did you mean `" + *meant + "`?" : "unit " + std::string(literal.unit) + " = 1m declares one");
+          meant ? "did you mean `" + *meant + "`?"
+                : "unit " + std::string(literal.unit) + " = 1m declares one");
     return Value::Number(literal.value);
   }
   const Unit& unit_of_measure = program_->measures[*index];
@@ -135,10 +177,14 @@ std::optional<Value> Binder::NumberConstant(NodeId id, bool percent_is_share) {
 std::optional<Value> Binder::Constant(NodeId id) {
   const Node& node = tree()[id];
   switch (node.kind) {
-    case NodeKind::kNumber: return NumberConstant(id);
-    case NodeKind::kTrue: return Value::Boolean(true);
-    case NodeKind::kFalse: return Value::Boolean(false);
-    case NodeKind::kParen: return Constant(node.first_child);
+    case NodeKind::kNumber:
+      return NumberConstant(id);
+    case NodeKind::kTrue:
+      return Value::Boolean(true);
+    case NodeKind::kFalse:
+      return Value::Boolean(false);
+    case NodeKind::kParen:
+      return Constant(node.first_child);
     case NodeKind::kUnary: {
       if (static_cast<Operator>(node.detail) != Operator::kNegate) return std::nullopt;
       if (KindOf(node.first_child) != NodeKind::kNumber) return std::nullopt;
@@ -147,14 +193,17 @@ std::optional<Value> Binder::Constant(NodeId id) {
     case NodeKind::kString: {
       const NodeId piece = node.first_child;
       if (piece == kNoNode) return Value::String("");
-      if (KindOf(piece) != NodeKind::kStringText || tree()[piece].next != kNoNode) return std::nullopt;
+      if (KindOf(piece) != NodeKind::kStringText || tree()[piece].next != kNoNode)
+        return std::nullopt;
       return Value::String(UnescapeStringText(Text(piece)));
     }
-    default: return std::nullopt;
+    default:
+      return std::nullopt;
   }
 }
 
-// A long sum leans to the left and is as deep as it is long, so its spine is walked and not descended.
+// A long sum leans to the left and is as deep as it is long, so its spine is walked and not
+// descended.
 std::vector<NodeId> Binder::Spine(NodeId id, NodeId* leftmost) const {
   const auto is_logic = [&](NodeId at) {
     const auto op = static_cast<Operator>(tree()[at].detail);
@@ -183,7 +232,8 @@ void Binder::BinaryInto(std::uint32_t target, NodeId id) {
     const bool is_share = op == Operator::kPlusMinus && KindOf(right_node) == NodeKind::kNumber &&
                           NumberOf(Text(right_node)).unit == "%";
     const Operand right = Expression(right_node);
-    Emit({OpOf(op), static_cast<std::uint8_t>(is_share), scope_->measure, target, left, right}, OperatorSpan(at));
+    Emit({OpOf(op), static_cast<std::uint8_t>(is_share), scope_->measure, target, left, right},
+         OperatorSpan(at));
     left = target;
   }
 }
@@ -217,11 +267,13 @@ void Binder::ConditionalInto(std::uint32_t target, NodeId id) {
   const std::uint32_t to_else = Emit({Op::kJumpIfFalse, 0, 0, 0, condition, 0}, SpanOf(kids[0]));
   const auto first = StaticDimension(kids[1]), second = StaticDimension(kids[2]);
   // A bare number beside a length is read as one, here as in `+`.
-  const auto read_bare = [&](std::optional<Dimension> own, std::optional<Dimension> other, NodeId at) {
+  const auto read_bare = [&](std::optional<Dimension> own, std::optional<Dimension> other,
+                             NodeId at) {
     if (!own || !other || !own->plain()) return;
     if (*other != model::kLength && *other != model::kAngle) return;
     const Type type = *other == model::kLength ? Type::kLength : Type::kAngle;
-    Emit({Op::kConvert, static_cast<std::uint8_t>(type), scope_->measure, target, target, AddText("")},
+    Emit({Op::kConvert, static_cast<std::uint8_t>(type), scope_->measure, target, target,
+          AddText("")},
          SpanOf(at));
   };
   ExpressionInto(target, kids[1]);
@@ -246,22 +298,29 @@ std::optional<Dimension> Binder::StaticDimension(NodeId id, int depth) {
       const auto index = FindMeasure(literal.unit);
       return index ? std::optional(program_->measures[*index].dimension) : std::nullopt;
     }
-    case NodeKind::kParen: return StaticDimension(kids[0], depth + 1);
-    case NodeKind::kUnary: return StaticDimension(kids[0], depth + 1);
-    case NodeKind::kConditional: return StaticDimension(kids[1], depth + 1);
-    case NodeKind::kMember: return DimensionOfMember(Text(kids[1]));
+    case NodeKind::kParen:
+      return StaticDimension(kids[0], depth + 1);
+    case NodeKind::kUnary:
+      return StaticDimension(kids[0], depth + 1);
+    case NodeKind::kConditional:
+      return StaticDimension(kids[1], depth + 1);
+    case NodeKind::kMember:
+      return DimensionOfMember(Text(kids[1]));
     case NodeKind::kName: {
       const Symbol* symbol = Find(Text(id));
       return symbol ? symbol->dimension : std::nullopt;
     }
     case NodeKind::kBinary: {
-      const auto left = StaticDimension(kids[0], depth + 1), right = StaticDimension(kids[1], depth + 1);
+      const auto left = StaticDimension(kids[0], depth + 1),
+                 right = StaticDimension(kids[1], depth + 1);
       if (!left || !right) return std::nullopt;
       switch (static_cast<Operator>(node.detail)) {
         case Operator::kAdd:
         case Operator::kSubtract:
-        case Operator::kModulo: return left->plain() ? right : left;
-        case Operator::kPlusMinus: return left;
+        case Operator::kModulo:
+          return left->plain() ? right : left;
+        case Operator::kPlusMinus:
+          return left;
         case Operator::kMultiply:
           if (left->plain()) return right;
           if (right->plain()) return left;
@@ -271,10 +330,12 @@ std::optional<Dimension> Binder::StaticDimension(NodeId id, int depth) {
           if (right->plain()) return left;
           if (*left == *right) return model::kPlain;
           return std::nullopt;
-        default: return std::nullopt;
+        default:
+          return std::nullopt;
       }
     }
-    default: return std::nullopt;
+    default:
+      return std::nullopt;
   }
 }
 
@@ -290,12 +351,13 @@ void Binder::CallInto(std::uint32_t target, NodeId id) {
     std::vector<std::string> names = VisibleNames();
     for (const Builtin& row : AllBuiltins()) names.emplace_back(row.name());
     const auto meant = DidYouMean(name, names);
-    Error(Code::kUnknownFunction, SpanOf(callee), "there is no function `" + Printable(name) + "`", "",
-          meant ? "did you mean `" + *meant + "`?" : "tranos help functions");
+    Error(Code::kUnknownFunction, SpanOf(callee), "there is no function `" + Printable(name) + "`",
+          "", meant ? "did you mean `" + *meant + "`?" : "tranos help functions");
     return;
   }
   const bool method = KindOf(callee) == NodeKind::kMember;
-  // Arguments stand in registers that follow one another; a closure, or an object and its method's name, before them.
+  // Arguments stand in registers that follow one another; a closure, or an object and its method's
+  // name, before them.
   const bool is_function = symbol && symbol->kind == Symbol::kFunction;
   if (method) {
     const auto parts = Kids(callee);
@@ -319,15 +381,16 @@ void Binder::CallInto(std::uint32_t target, NodeId id) {
     const Builtin& row = AllBuiltins()[static_cast<std::size_t>(builtin)];
     const int given = static_cast<int>(count);
     if (given < row.least || (row.most >= 0 && given > row.most)) {
-      Error(Code::kWrongCount, SpanOf(id), "`" + name + "` is given " + std::to_string(count) + " values",
-            std::string(row.usage));
+      Error(Code::kWrongCount, SpanOf(id),
+            "`" + name + "` is given " + std::to_string(count) + " values", std::string(row.usage));
     }
-    emit({Op::kCallBuiltin, static_cast<std::uint8_t>(builtin), scope_->measure, target, first, count});
+    emit({Op::kCallBuiltin, static_cast<std::uint8_t>(builtin), scope_->measure, target, first,
+          count});
   } else if (is_function) {
     if (static_cast<int>(count) != symbol->parameters) {
       Error(Code::kWrongCount, SpanOf(id),
-            "`" + name + "` takes " + std::to_string(symbol->parameters) + " values, and is given " +
-                std::to_string(count),
+            "`" + name + "` takes " + std::to_string(symbol->parameters) +
+                " values, and is given " + std::to_string(count),
             "", "", {{symbol->declared, "declared here"}});
       return;
     }
@@ -390,7 +453,8 @@ void Binder::LambdaInto(std::uint32_t target, NodeId id) {
   scope.measure = scope_->measure;
   Builder* const outer_builder = std::exchange(builder_, &builder);
   Scope* const outer_scope = std::exchange(scope_, &scope);
-  scope.symbols[Text(kids[0])] = {.unit = inner, .index = NewRegister(), .declared = SpanOf(kids[0])};
+  scope.symbols[Text(kids[0])] = {
+      .unit = inner, .index = NewRegister(), .declared = SpanOf(kids[0])};
   CheckName(Text(kids[0]), SpanOf(kids[0]));
   for (const auto& [name, reg] : captured) {
     if (name == Text(kids[0])) {
@@ -418,7 +482,8 @@ void Binder::StringInto(std::uint32_t target, NodeId id) {
   for (std::uint32_t i = 0; i < kids.size(); ++i) {
     const Node& piece = tree()[kids[i]];
     if (piece.kind == NodeKind::kStringText) {
-      Emit({Op::kMove, 0, 0, first + i, AddText(UnescapeStringText(Text(kids[i]))), 0}, SpanOf(kids[i]));
+      Emit({Op::kMove, 0, 0, first + i, AddText(UnescapeStringText(Text(kids[i]))), 0},
+           SpanOf(kids[i]));
     } else if (piece.first_child != kNoNode) {
       const Operand value = Expression(piece.first_child);
       Emit({Op::kFormat, piece.detail, scope_->measure, first + i, value, 0}, SpanOf(kids[i]));
@@ -438,7 +503,8 @@ void Binder::NameInto(std::uint32_t target, NodeId id) {
     const auto meant = DidYouMean(name, VisibleNames());
     Error(Code::kUnknownName, SpanOf(id), "there is no `" + Printable(name) + "` here", "",
           meant ? "did you mean `" + *meant + "`?"
-                : "let " + Printable(name) + " = … binds a value, `as " + Printable(name) + "` names an element");
+                : "let " + Printable(name) + " = … binds a value, `as " + Printable(name) +
+                      "` names an element");
     return;
   }
   switch (symbol->kind) {
@@ -485,7 +551,8 @@ void Binder::ListInto(std::uint32_t target, const std::vector<NodeId>& items, No
   Emit({Op::kMakeList, 0, 0, target, first, count}, SpanOf(whole));
 }
 
-Operand Binder::ConvertedOperand(Operand operand, Type type, bool list, std::string_view name, Span span) {
+Operand Binder::ConvertedOperand(Operand operand, Type type, bool list, std::string_view name,
+                                 Span span) {
   if (type == Type::kAny) return operand;
   if ((operand & kConstantBit) && !list) {
     try {
@@ -499,8 +566,8 @@ Operand Binder::ConvertedOperand(Operand operand, Type type, bool list, std::str
   // A named value keeps its register; its converted copy has its own.
   const bool own = target >= builder_->first_temporary;
   const std::uint32_t into = own ? target : NewRegister();
-  Emit({list ? Op::kConvertList : Op::kConvert, static_cast<std::uint8_t>(type), scope_->measure, into,
-        operand, AddText(name)},
+  Emit({list ? Op::kConvertList : Op::kConvert, static_cast<std::uint8_t>(type), scope_->measure,
+        into, operand, AddText(name)},
        span);
   return into;
 }
@@ -515,7 +582,8 @@ Operand Binder::TypedWord(NodeId value, std::string_view words, std::string_view
       const auto meant = DidYouMean(word, SplitWords(words));
       std::string list;
       for (const std::string& known : SplitWords(words)) list += (list.empty() ? "" : ", ") + known;
-      Error(Code::kWrongType, SpanOf(value), "`" + std::string(name) + "` takes no word `" + Printable(word) + "`",
+      Error(Code::kWrongType, SpanOf(value),
+            "`" + std::string(name) + "` takes no word `" + Printable(word) + "`",
             "expected one of " + list, meant ? "did you mean `" + *meant + "`?" : "");
       return AddText(word);
     }
@@ -523,15 +591,16 @@ Operand Binder::TypedWord(NodeId value, std::string_view words, std::string_view
   return ConvertedOperand(Expression(value), Type::kWord, false, name, SpanOf(value));
 }
 
-Operand Binder::Typed(const std::vector<NodeId>& values, Type type, bool list, std::string_view words,
-                      std::string_view name, NodeId whole) {
-  const bool gathers = list || type == Type::kPoint || type == Type::kScale || type == Type::kSize ||
-                       type == Type::kElements || type == Type::kPoints;
+Operand Binder::Typed(const std::vector<NodeId>& values, Type type, bool list,
+                      std::string_view words, std::string_view name, NodeId whole) {
+  const bool gathers = list || type == Type::kPoint || type == Type::kScale ||
+                       type == Type::kSize || type == Type::kElements || type == Type::kPoints;
   if (type == Type::kWord && values.size() == 1 && !list) return TypedWord(values[0], words, name);
   if (!gathers && values.size() != 1) {
     Span span = SpanOf(values[1]);
     span.end = SpanOf(values.back()).end;
-    Error(Code::kWrongCount, span, "`" + std::string(name) + "` takes one value", "more than one value");
+    Error(Code::kWrongCount, span, "`" + std::string(name) + "` takes one value",
+          "more than one value");
     return AddConstant(Value());
   }
   Span span = SpanOf(values.front());

@@ -49,33 +49,64 @@ void Binder::BindStatement(NodeId id) {
   const NodeKind kind = KindOf(id);
   if (in_used_file_ && at_top_ && kind != NodeKind::kLet && kind != NodeKind::kUnit &&
       kind != NodeKind::kFunction && kind != NodeKind::kDefine && kind != NodeKind::kUse) {
-    Error(Code::kMisplaced, SpanOf(id), "a used file holds functions, definitions, units and lets alone",
+    Error(Code::kMisplaced, SpanOf(id),
+          "a used file holds functions, definitions, units and lets alone",
           "this statement would be run", "move it into the script");
     return;
   }
   switch (kind) {
-    case NodeKind::kLet: return BindLet(id);  // keeps its register
-    case NodeKind::kParameter: return BindParameterStatement(id);
-    case NodeKind::kUnknown: return BindUnknown(id);
-    case NodeKind::kUse: return BindUse(id);
-    case NodeKind::kUnit: BindUnit(id); break;
-    case NodeKind::kFunction: BindFunction(id); break;
-    case NodeKind::kDefine: BindDefine(id); break;
-    case NodeKind::kInterface: BindInterface(id); break;
-    case NodeKind::kForCount: BindForCount(id); break;
-    case NodeKind::kForEach: BindForEach(id); break;
-    case NodeKind::kIf: BindIf(id); break;
-    case NodeKind::kGroup: BindGroup(id); break;
-    case NodeKind::kAssert: BindAssert(id); break;
-    case NodeKind::kBlock: BindPlainBlock(id); break;
-    case NodeKind::kCommand: BindCommand(id); break;
-    case NodeKind::kKeyIns: BindArguments(Kids(id), 0, nullptr, statement_); break;
-    default: break;  // an error node, reported by the parser
+    case NodeKind::kLet:
+      return BindLet(id);  // keeps its register
+    case NodeKind::kParameter:
+      return BindParameterStatement(id);
+    case NodeKind::kUnknown:
+      return BindUnknown(id);
+    case NodeKind::kUse:
+      return BindUse(id);
+    case NodeKind::kUnit:
+      BindUnit(id);
+      break;
+    case NodeKind::kFunction:
+      BindFunction(id);
+      break;
+    case NodeKind::kDefine:
+      BindDefine(id);
+      break;
+    case NodeKind::kInterface:
+      BindInterface(id);
+      break;
+    case NodeKind::kForCount:
+      BindForCount(id);
+      break;
+    case NodeKind::kForEach:
+      BindForEach(id);
+      break;
+    case NodeKind::kIf:
+      BindIf(id);
+      break;
+    case NodeKind::kGroup:
+      BindGroup(id);
+      break;
+    case NodeKind::kAssert:
+      BindAssert(id);
+      break;
+    case NodeKind::kBlock:
+      BindPlainBlock(id);
+      break;
+    case NodeKind::kCommand:
+      BindCommand(id);
+      break;
+    case NodeKind::kKeyIns:
+      BindArguments(Kids(id), 0, nullptr, statement_);
+      break;
+    default:
+      break;  // an error node, reported by the parser
   }
   builder_->next_register = mark;
 }
 
-// Whether anything in the block touches the drawing: only then is there something to restore at its end.
+// Whether anything in the block touches the drawing: only then is there something to restore at its
+// end.
 bool Binder::Draws(NodeId block) const {
   std::vector<NodeId> pending{block};
   while (!pending.empty()) {
@@ -84,16 +115,19 @@ bool Binder::Draws(NodeId block) const {
     switch (KindOf(id)) {
       case NodeKind::kCommand:
       case NodeKind::kKeyIns:
-      case NodeKind::kGroup: return true;
+      case NodeKind::kGroup:
+        return true;
       case NodeKind::kScript:
       case NodeKind::kBlock:
       case NodeKind::kForCount:
       case NodeKind::kForEach:
       case NodeKind::kIf:
       case NodeKind::kHypothesis:
-        for (NodeId kid = tree()[id].first_child; kid != kNoNode; kid = tree()[kid].next) pending.push_back(kid);
+        for (NodeId kid = tree()[id].first_child; kid != kNoNode; kid = tree()[kid].next)
+          pending.push_back(kid);
         break;
-      default: break;
+      default:
+        break;
     }
   }
   return false;
@@ -175,7 +209,8 @@ void CollectNames(const SyntaxTree& tree, const Sources& sources, NodeId root,
       }
       continue;
     }
-    for (NodeId kid = tree[id].first_child; kid != kNoNode; kid = tree[kid].next) pending.push_back(kid);
+    for (NodeId kid = tree[id].first_child; kid != kNoNode; kid = tree[kid].next)
+      pending.push_back(kid);
   }
 }
 
@@ -192,7 +227,8 @@ void Binder::CheckUnnamed(const std::map<std::string, Span>& given) {
   }
 }
 
-// One turn of a loop: settings at its `{` come back at its `}`, and names given in it mean this turn's.
+// One turn of a loop: settings at its `{` come back at its `}`, and names given in it mean this
+// turn's.
 void Binder::BindTurn(NodeId block, Scope* scope, const std::map<std::string, Span>& given) {
   scope->is_turn = true;
   const std::uint32_t name_scope = NamesScope()->name_scope;
@@ -239,7 +275,8 @@ void Binder::BindForCount(NodeId id) {
     } else {
       Emit({Op::kMove, 0, 0, state + 2, AddConstant(Value()), 0}, SpanOf(id));
     }
-    Declare(Text(kids[0]), {.unit = builder_->id, .index = variable, .dimension = StaticDimension(kids[1])},
+    Declare(Text(kids[0]),
+            {.unit = builder_->id, .index = variable, .dimension = StaticDimension(kids[1])},
             SpanOf(kids[0]));
     Span head = SpanOf(kids[1]);
     head.end = SpanOf(kids[kids.size() - 2]).end;
@@ -267,7 +304,9 @@ void Binder::BindForEach(NodeId id) {
     const std::uint32_t index = NewRegister();
     const std::uint32_t item = NewRegister();
     ExpressionInto(state, kids[kids.size() - 2]);
-    if (indexed) Declare(Text(kids[0]), {.unit = builder_->id, .index = index, .dimension = model::kPlain}, SpanOf(kids[0]));
+    if (indexed)
+      Declare(Text(kids[0]), {.unit = builder_->id, .index = index, .dimension = model::kPlain},
+              SpanOf(kids[0]));
     const NodeId item_name = kids[indexed ? 1 : 0];
     Declare(Text(item_name), {.unit = builder_->id, .index = item}, SpanOf(item_name));
     const Span head = SpanOf(kids[kids.size() - 2]);
@@ -363,7 +402,8 @@ void Binder::BindAssert(NodeId id) {
   if (kids.size() > 1) {
     const NodeId message = kids[1];
     for (NodeId piece : Kids(message)) {
-      info.message += KindOf(piece) == NodeKind::kStringText ? UnescapeStringText(Text(piece)) : Text(piece);
+      info.message +=
+          KindOf(piece) == NodeKind::kStringText ? UnescapeStringText(Text(piece)) : Text(piece);
     }
   }
   const std::uint32_t result = NewRegister();
@@ -371,15 +411,16 @@ void Binder::BindAssert(NodeId id) {
   NewRegister();
   const std::uint32_t message = NewRegister();
   const auto op = static_cast<Operator>(tree()[condition].detail);
-  info.compares = KindOf(condition) == NodeKind::kBinary && op >= Operator::kEqual && op <= Operator::kConsistent;
+  info.compares = KindOf(condition) == NodeKind::kBinary && op >= Operator::kEqual &&
+                  op <= Operator::kConsistent;
   if (info.compares) {
     const auto parts = Kids(condition);
     ExpressionInto(sides, parts[0]);
     ExpressionInto(sides + 1, parts[1]);
-    const Op ops[] = {Op::kEqual, Op::kNotEqual, Op::kLess, Op::kLessEqual,
+    const Op ops[] = {Op::kEqual,   Op::kNotEqual,     Op::kLess,   Op::kLessEqual,
                       Op::kGreater, Op::kGreaterEqual, Op::kWithin, Op::kConsistent};
-    Emit({ops[static_cast<int>(op) - static_cast<int>(Operator::kEqual)], 0, scope_->measure, result, sides,
-          sides + 1},
+    Emit({ops[static_cast<int>(op) - static_cast<int>(Operator::kEqual)], 0, scope_->measure,
+          result, sides, sides + 1},
          OperatorSpan(condition));
   } else {
     ExpressionInto(result, kids[0]);
@@ -391,14 +432,16 @@ void Binder::BindAssert(NodeId id) {
     Emit({Op::kMove, 0, 0, message, AddText(""), 0}, SpanOf(id));
   }
   program_->asserts.push_back(std::move(info));
-  Emit({Op::kAssert, 0, scope_->measure, static_cast<std::uint32_t>(program_->asserts.size() - 1), result, sides},
+  Emit({Op::kAssert, 0, scope_->measure, static_cast<std::uint32_t>(program_->asserts.size() - 1),
+        result, sides},
        SpanOf(kids[0]));
 }
 
 void Binder::BindUnknown(NodeId id) {
   const auto kids = Kids(id);
   if (!at_top_ || in_used_file_ || in_definition_) {
-    return Error(Code::kMisplaced, SpanOf(id), "`unknown` stands at the top of a script", "inside a block here");
+    return Error(Code::kMisplaced, SpanOf(id), "`unknown` stands at the top of a script",
+                 "inside a block here");
   }
   builder_->next_register = unit().registers;  // one that nothing has used: empty until it is bound
   Type type = Type::kNumber;
@@ -407,7 +450,8 @@ void Binder::BindUnknown(NodeId id) {
   if (KindOf(kids[at]) == NodeKind::kType) {
     const NodeId name = tree()[kids[at]].first_child;
     const auto named = TypeNamed(Lower(name));
-    if (!named) return Error(Code::kUnknownType, SpanOf(name), "there is no type `" + Text(name) + "`");
+    if (!named)
+      return Error(Code::kUnknownType, SpanOf(name), "there is no type `" + Text(name) + "`");
     type = *named;
     typed = true;
     ++at;
@@ -417,21 +461,25 @@ void Binder::BindUnknown(NodeId id) {
   program_->unknowns.push_back({Text(kids[0]), SpanOf(kids[0])});
   const auto number = static_cast<std::uint32_t>(program_->unknowns.size() - 1);
   if (KindOf(start) == NodeKind::kName && Text(start) == "free" && !Find("free")) {
-    Error(Code::kNotYet, SpanOf(start), "an unknown without a start needs `calibrate`, which is not there yet",
-          "", "give it a start: `unknown " + Text(kids[0]) + " = 4m`");
+    Error(Code::kNotYet, SpanOf(start),
+          "an unknown without a start needs `calibrate`, which is not there yet", "",
+          "give it a start: `unknown " + Text(kids[0]) + " = 4m`");
   } else {
     ExpressionInto(reg, start);
     if (typed) {
-      Emit({Op::kConvert, static_cast<std::uint8_t>(type), scope_->measure, reg, reg, AddText(Text(kids[0]))},
+      Emit({Op::kConvert, static_cast<std::uint8_t>(type), scope_->measure, reg, reg,
+            AddText(Text(kids[0]))},
            SpanOf(start));
     }
     if (at + 1 < kids.size()) {
       const Operand range = Expression(tree()[kids[at + 1]].first_child);
-      Emit({Op::kCheckRange, 0, scope_->measure, reg, range, AddText(Text(kids[0]))}, SpanOf(start));
+      Emit({Op::kCheckRange, 0, scope_->measure, reg, range, AddText(Text(kids[0]))},
+           SpanOf(start));
     }
     Emit({Op::kUnknown, 0, 0, reg, reg, number}, SpanOf(kids[0]));
   }
-  Declare(Text(kids[0]), {.unit = builder_->id, .index = reg, .dimension = StaticDimension(start)}, SpanOf(kids[0]));
+  Declare(Text(kids[0]), {.unit = builder_->id, .index = reg, .dimension = StaticDimension(start)},
+          SpanOf(kids[0]));
 }
 
 namespace {
@@ -459,7 +507,8 @@ std::string NormalPath(const std::string& path) {
 
 void Binder::BindUse(NodeId id) {
   if (!at_top_ || in_definition_) {
-    return Error(Code::kMisplaced, SpanOf(id), "`use` stands at the top of a script", "inside a block here");
+    return Error(Code::kMisplaced, SpanOf(id), "`use` stands at the top of a script",
+                 "inside a block here");
   }
   const NodeId string = Kids(id)[0];
   const auto written = Constant(string);
@@ -470,7 +519,8 @@ void Binder::BindUse(NodeId id) {
   const std::string& from = program_->sources->files[tree_->file].path;
   std::string path = written->string();
   const std::size_t slash = from.rfind('/');
-  if (in_used_file_ && slash != std::string::npos && !path.starts_with('/')) path = from.substr(0, slash + 1) + path;
+  if (in_used_file_ && slash != std::string::npos && !path.starts_with('/'))
+    path = from.substr(0, slash + 1) + path;
   BindUsedFile(id, NormalPath(path));
 }
 
@@ -478,14 +528,18 @@ void Binder::BindUsedFile(NodeId id, const std::string& path) {
   const NodeId string = Kids(id)[0];
   auto found = used_.find(path);
   if (found != used_.end() && !found->second) {
-    return Error(Code::kUseCircle, SpanOf(string), "`" + Printable(path) + "` uses itself, directly or through others");
+    return Error(Code::kUseCircle, SpanOf(string),
+                 "`" + Printable(path) + "` uses itself, directly or through others");
   }
   if (found == used_.end()) {
-    auto bytes = host_.read ? host_.read(path)
-                            : tl::make_unexpected(HostError{HostError::kMissing, "there are no files here"});
+    auto bytes =
+        host_.read ? host_.read(path)
+                   : tl::make_unexpected(HostError{HostError::kMissing, "there are no files here"});
     if (!bytes) {
-      const Code code = bytes.error().kind == HostError::kOutside ? Code::kOutsideSandbox : Code::kCannotRead;
-      return Error(code, SpanOf(string), "`" + Printable(path) + "` cannot be read", bytes.error().detail);
+      const Code code =
+          bytes.error().kind == HostError::kOutside ? Code::kOutsideSandbox : Code::kCannotRead;
+      return Error(code, SpanOf(string), "`" + Printable(path) + "` cannot be read",
+                   bytes.error().detail);
     }
     used_[path] = nullptr;
     program_->sources->files.push_back(MakeSource(path, std::move(*bytes)));
@@ -520,8 +574,10 @@ void Binder::BindUsedFile(NodeId id, const std::string& path) {
   for (const auto& [name, symbol] : found->second->symbols) {
     const auto known = scope_->symbols.find(name);
     if (known != scope_->symbols.end() && !(known->second.declared == symbol.declared)) {
-      Error(Code::kBoundTwice, SpanOf(string), "`" + name + "` of `" + Printable(path) + "` is bound already",
-            "", "rename one of the two", {{known->second.declared, "bound here"}, {symbol.declared, "and here"}});
+      Error(Code::kBoundTwice, SpanOf(string),
+            "`" + name + "` of `" + Printable(path) + "` is bound already", "",
+            "rename one of the two",
+            {{known->second.declared, "bound here"}, {symbol.declared, "and here"}});
       continue;
     }
     scope_->symbols.emplace(name, symbol);
@@ -529,7 +585,8 @@ void Binder::BindUsedFile(NodeId id, const std::string& path) {
   for (const auto& [words, definition] : found->second->definitions) {
     const auto known = scope_->definitions.find(words);
     if (known != scope_->definitions.end() && known->second != definition) {
-      Error(Code::kBoundTwice, SpanOf(string), "`" + words + "` of `" + Printable(path) + "` is defined already");
+      Error(Code::kBoundTwice, SpanOf(string),
+            "`" + words + "` of `" + Printable(path) + "` is defined already");
       continue;
     }
     scope_->definitions.emplace(words, definition);

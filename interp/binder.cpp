@@ -12,11 +12,13 @@ namespace {
 
 const std::vector<Unit>& StandardMeasures() {
   using model::Dimension;
-  const auto power = [](int n) { return Dimension{Dimension::kLength, static_cast<std::int8_t>(n)}; };
+  const auto power = [](int n) {
+    return Dimension{Dimension::kLength, static_cast<std::int8_t>(n)};
+  };
   static const std::vector<Unit> kMeasures = [&] {
     std::vector<Unit> units;
-    const std::pair<const char*, double> lengths[] = {{"m", 1},      {"cm", 0.01},    {"mm", 0.001},
-                                                      {"km", 1000},  {"ft", 0.3048},  {"in", 0.0254}};
+    const std::pair<const char*, double> lengths[] = {{"m", 1},     {"cm", 0.01},   {"mm", 0.001},
+                                                      {"km", 1000}, {"ft", 0.3048}, {"in", 0.0254}};
     for (const auto& [name, metres] : lengths) {
       units.push_back({name, power(1), metres});
       units.push_back({std::string(name) + "2", power(2), metres * metres});
@@ -33,10 +35,11 @@ const std::vector<Unit>& StandardMeasures() {
 
 const std::set<std::string, std::less<>>& ReservedNames() {
   static const std::set<std::string, std::less<>> kReserved = [] {
-    std::set<std::string, std::less<>> names{"let",  "unit",  "function",   "define", "parameter", "interface",
-                                "unknown", "for", "if", "then", "else", "group", "hypothesis",
-                                "use", "assert", "and", "or", "not", "within", "consistent", "in",
-                                "true", "false", "last", "reset", "as"};
+    std::set<std::string, std::less<>> names{
+        "let",    "unit",  "function", "define", "parameter", "interface",  "unknown",
+        "for",    "if",    "then",     "else",   "group",     "hypothesis", "use",
+        "assert", "and",   "or",       "not",    "within",    "consistent", "in",
+        "true",   "false", "last",     "reset",  "as"};
     for (const PointKeyRow& row : AllPointKeys()) names.emplace(row.key);
     for (const SettingRow& row : AllSettings()) names.emplace(row.key);
     return names;
@@ -75,7 +78,8 @@ Bound Binder::BindScript(const SyntaxTree& script) {
   Emit({Op::kEndCommand}, last);
   Emit({Op::kHalt}, last);
   for (const auto& [name, symbol] : scope.symbols) {
-    if (symbol.kind == Symbol::kRegister && symbol.unit == 0) program_->lets.emplace_back(name, symbol.index);
+    if (symbol.kind == Symbol::kRegister && symbol.unit == 0)
+      program_->lets.emplace_back(name, symbol.index);
   }
   std::sort(program_->lets.begin(), program_->lets.end());
   Bound bound{program_, std::move(diagnostics_), {}};
@@ -91,7 +95,10 @@ Bound Binder::BindScript(const SyntaxTree& script) {
 Diagnostic Binder::UnknownHypothesis(const SyntaxTree& script) const {
   const std::string asked = "`" + Printable(options_.hypothesis) + "`";
   if (hypotheses_.empty()) {
-    return {Code::kUnknownHypothesis, {script.file, 0, 0}, "the script has no hypothesis " + asked, "",
+    return {Code::kUnknownHypothesis,
+            {script.file, 0, 0},
+            "the script has no hypothesis " + asked,
+            "",
             "it has no `hypothesis` at all: run it without --hypothesis"};
   }
   std::vector<std::string> names;
@@ -125,8 +132,9 @@ void Binder::Declare(const std::string& name, Symbol symbol, Span span) {
   symbol.declared = span;
   const auto found = scope_->symbols.find(name);
   if (found != scope_->symbols.end()) {
-    Error(Code::kBoundTwice, span, "`" + name + "` is bound already in this block", "bound again here",
-          "choose another name; a block within may bind it anew", {{found->second.declared, "first bound here"}});
+    Error(Code::kBoundTwice, span, "`" + name + "` is bound already in this block",
+          "bound again here", "choose another name; a block within may bind it anew",
+          {{found->second.declared, "first bound here"}});
     return;
   }
   scope_->symbols.emplace(name, symbol);
@@ -186,7 +194,8 @@ std::optional<std::uint16_t> Binder::FindMeasure(std::string_view name) const {
 
 std::string Binder::Text(NodeId id) const {
   const std::string_view raw = program_->sources->Slice(tree_->SpanOf(id));
-  return KindOf(id) == NodeKind::kName || KindOf(id) == NodeKind::kWord ? NormalWord(raw) : std::string(raw);
+  return KindOf(id) == NodeKind::kName || KindOf(id) == NodeKind::kWord ? NormalWord(raw)
+                                                                        : std::string(raw);
 }
 
 std::string Binder::Lower(NodeId id) const { return LowerCase(Text(id)); }
@@ -200,8 +209,8 @@ Span Binder::OperatorSpan(NodeId binary) const {
   std::uint32_t begin = left.end, end = right.begin;
   while (begin < end && (text[begin] == ' ' || text[begin] == '\t')) ++begin;
   std::uint32_t stop = begin;
-  while (stop < end && text[stop] != ' ' && text[stop] != '\t' && text[stop] != '\n' && text[stop] != '\r' &&
-         text[stop] != '#') {
+  while (stop < end && text[stop] != ' ' && text[stop] != '\t' && text[stop] != '\n' &&
+         text[stop] != '\r' && text[stop] != '#') {
     ++stop;
   }
   if (stop == begin) return SpanOf(binary);
@@ -210,7 +219,8 @@ Span Binder::OperatorSpan(NodeId binary) const {
 
 void Binder::Error(Code code, Span span, std::string message, std::string label, std::string help,
                    std::vector<Note> notes) {
-  diagnostics_.Add({code, span, std::move(message), std::move(label), std::move(help), std::move(notes)});
+  diagnostics_.Add(
+      {code, span, std::move(message), std::move(label), std::move(help), std::move(notes)});
 }
 
 void Binder::Report(const OpFailure& failure, Span span) {

@@ -20,12 +20,12 @@ namespace tranos::interp {
 
 struct Symbol {
   enum Kind : std::uint8_t { kRegister, kElementName, kFunction } kind = kRegister;
-  std::uint32_t unit = 0;      // the code unit of the register, or of the function
-  std::uint32_t index = 0;     // register, or index in the name scope
-  std::uint32_t scope = 0;     // name scope of an element name
+  std::uint32_t unit = 0;           // the code unit of the register, or of the function
+  std::uint32_t index = 0;          // register, or index in the name scope
+  std::uint32_t scope = 0;          // name scope of an element name
   std::int64_t turn_register = -1;  // of an element name given in this loop: where the turn began
-  bool as_list = false;        // an element name given in a loop that has ended
-  int parameters = 0;          // of a function
+  bool as_list = false;             // an element name given in a loop that has ended
+  int parameters = 0;               // of a function
   std::optional<model::Dimension> dimension = {};  // where it is known before running
   Span declared = {};
   std::uint32_t file = 0;
@@ -37,12 +37,12 @@ struct Scope {
   std::map<std::string, std::uint32_t, std::less<>> definitions;  // words → index
   Scope* parent = nullptr;
   std::uint32_t name_scope = 0;
-  bool opens_names = false;  // a script, group or definition: `as` names belong here
+  bool opens_names = false;                // a script, group or definition: `as` names belong here
   std::map<std::string, Span> interfaces;  // of a definition
-  bool is_turn = false;      // a loop's body
+  bool is_turn = false;                    // a loop's body
   std::map<std::string, std::uint32_t> turn_registers;  // of a loop: name → where its turn began
   std::uint16_t measure = 0;                            // the working unit from here on
-  const Command* command = nullptr;  // the nearest command before, in this block
+  const Command* command = nullptr;                     // the nearest command before, in this block
   std::uint32_t command_statement = 0;
   bool closed_to_commands = false;  // a group or definition: commands outside are not reached
 };
@@ -91,7 +91,8 @@ class Binder {
   void BindFunction(NodeId id);
   void BindDefine(NodeId id);
   void BindParameterStatement(NodeId id);
-  void BindGivenValue(const DefinedParameter& declared, const std::string& given, std::uint32_t reg);
+  void BindGivenValue(const DefinedParameter& declared, const std::string& given,
+                      std::uint32_t reg);
   void BindInterface(NodeId id);
   void DeclareInterface(NodeId name_node);
   void EmitParameter(NodeId param, const DefinedParameter& declared, std::uint32_t reg);
@@ -145,7 +146,9 @@ class Binder {
   std::uint32_t Here() const { return static_cast<std::uint32_t>(unit().code.size()); }
   void Patch(std::uint32_t at, std::uint32_t target);
   Operand AddConstant(model::Value value);
-  Operand AddText(std::string_view text) { return AddConstant(model::Value::String(std::string(text))); }
+  Operand AddText(std::string_view text) {
+    return AddConstant(model::Value::String(std::string(text)));
+  }
   CodeUnit& unit() { return program_->units[builder_->id]; }
   const CodeUnit& unit() const { return program_->units[builder_->id]; }
   const Unit& measure() const { return program_->measures[scope_->measure]; }
@@ -175,7 +178,8 @@ class Binder {
   std::uint32_t statement_ = 0;  // counts statements, to tell a key's own
   SourceList constant_sources_;
   std::map<NodeId, std::uint32_t> let_registers_;  // of lets in a block that has functions
-  std::map<NodeId, std::uint32_t> predeclared_;  // define or function node → definition or unit, in this file
+  std::map<NodeId, std::uint32_t>
+      predeclared_;  // define or function node → definition or unit, in this file
   // Files used: path → its top-level scope, null while it is being bound.
   std::map<std::string, std::unique_ptr<Scope>> used_;
   std::deque<SyntaxTree> used_trees_;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A command is a record: its words, keys, prompts, examples, and a pure function from the state and the answers
-// to an edit. Everything that is known of a command is in its row; help, the reference, binding
-// and the engine read it there.
+// A command is a record: its words, keys, prompts, examples, and a pure function from the state and
+// the answers to an edit. Everything that is known of a command is in its row; help, the reference,
+// binding and the engine read it there.
 #pragma once
 
 #include <optional>
@@ -27,7 +27,7 @@ struct Key {
   std::string_view standard = {};  // its value when not given, as text for help; "" if none
   int prompt = -1;                 // the question it may answer in place of a data point
   bool required = false;
-  bool list = false;       // a list of the type
+  bool list = false;  // a list of the type
 };
 
 // A question, answered by a data point.
@@ -37,9 +37,9 @@ struct Prompt {
 
 // How a command runs (docs/language.md, "How a command runs").
 enum class Manner : std::uint8_t {
-  kImmediate,   // asks for no data point; fires at the separator that ends its statement
-  kPlaces,      // fires at the data point that answers its last question, then asks again from `again`
-  kGathers,     // gathers data points and makes one element when it ends
+  kImmediate,  // asks for no data point; fires at the separator that ends its statement
+  kPlaces,   // fires at the data point that answers its last question, then asks again from `again`
+  kGathers,  // gathers data points and makes one element when it ends
   kTransforms,  // as kPlaces, on `of=` or the selection
   kPicks,       // create, construct: `of=`, or the selection plus picks; asks to accept
   kEdits,       // delete, drop, modify: as kPicks, but a selection needs no accepting
@@ -56,8 +56,8 @@ struct Example {
 // Where in the key-ins an error of a command lies.
 struct Where {
   enum Kind : std::uint8_t { kCommand, kKey, kPoint, kChosen } kind = kCommand;
-  int index = 0;          // of the point or the chosen element
-  std::string_view key;   // of kKey
+  int index = 0;         // of the point or the chosen element
+  std::string_view key;  // of kKey
 };
 struct CommandError {
   Code code;
@@ -71,10 +71,10 @@ CommandError FromGeom(const geom::Error& error, std::string_view what, Where whe
 
 // What was answered, converted to the types that the row states.
 struct Answers {
-  std::vector<geom::Vec3> points;              // in the world, in the order of the prompts
-  std::vector<bool> answered;                  // which prompts a data point answered (a key may stand for one)
-  std::vector<model::ElementPtr> chosen;       // of=, or selection and picks; current versions
-  std::vector<std::string> words;              // option words and names, as written
+  std::vector<geom::Vec3> points;  // in the world, in the order of the prompts
+  std::vector<bool> answered;      // which prompts a data point answered (a key may stand for one)
+  std::vector<model::ElementPtr> chosen;  // of=, or selection and picks; current versions
+  std::vector<std::string> words;         // option words and names, as written
   std::vector<std::pair<std::string_view, model::Value>> keys;  // those given
   bool first = true;  // the first firing since the command started
 
@@ -105,13 +105,13 @@ struct Command {
   std::string_view summary;  // one sentence
   Manner manner = Manner::kImmediate;
   std::span<const Prompt> prompts = {};
-  int again = 0;          // the question asked again after a firing
-  bool carries = false;   // the last answer becomes the first question's answer when asking again
-  int least = 1;          // gathered points, picked or chosen elements needed to fire
-  int most = 1'000'000;   // a picking command fires by itself at this many; gathering: a limit
+  int again = 0;         // the question asked again after a firing
+  bool carries = false;  // the last answer becomes the first question's answer when asking again
+  int least = 1;         // gathered points, picked or chosen elements needed to fire
+  int most = 1'000'000;  // a picking command fires by itself at this many; gathering: a limit
   std::span<const Key> keys = {};
-  std::string_view options = {};   // "wireframe|hidden|phong|antialias": its option words
-  std::string_view asks = {};      // a name it asks for in bare words: "level"
+  std::string_view options = {};     // "wireframe|hidden|phong|antialias": its option words
+  std::string_view asks = {};        // a name it asks for in bare words: "level"
   std::string_view string_key = {};  // the key that a bare string stands for: "file"
   std::span<const Example> examples = {};
   CommandResult (*execute)(const model::State&, const Answers&) = nullptr;  // null: E0001

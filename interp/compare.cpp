@@ -97,7 +97,8 @@ Value Within(Value left, Value right, const Context& context) {
   const bool written = right.derivatives()->last_is_written;
   if (!Align(&left, &right, *context.unit)) FailPair(left, right);
   const auto& terms = right.derivatives()->terms;
-  const double bound = written ? ShareOf(terms.back(), *context.sources) : Sigma(right, *context.sources);
+  const double bound =
+      written ? ShareOf(terms.back(), *context.sources) : Sigma(right, *context.sources);
   return Value::Boolean(std::abs(left.number() - right.number()) <= bound);
 }
 

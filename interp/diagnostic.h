@@ -39,10 +39,10 @@ struct Note {
 
 struct Diagnostic {
   Code code;
-  Span span;            // the narrowest thing that is wrong
-  std::string message;  // lower case, no full stop, source in backticks
-  std::string label;    // under the carets: what was expected; may be empty
-  std::string help;     // a way out; may be empty
+  Span span;                     // the narrowest thing that is wrong
+  std::string message;           // lower case, no full stop, source in backticks
+  std::string label;             // under the carets: what was expected; may be empty
+  std::string help;              // a way out; may be empty
   std::vector<Note> notes = {};  // other places that matter ("first named here")
   Severity severity() const { return InfoOf(code).severity; }
 };
@@ -63,7 +63,8 @@ class Diagnostics {
   std::size_t warning_count_ = 0;
 };
 
-// As in docs/language.md, "Evidence and errors", with source line and carets; control characters are shown escaped.
+// As in docs/language.md, "Evidence and errors", with source line and carets; control characters
+// are shown escaped.
 std::string RenderText(const Diagnostic& diagnostic, const Sources& sources, bool colour);
 // The place alone, as it stands below a diagnostic's first line: path, source line, carets, label.
 std::string RenderPlace(const Span& span, std::string_view label, const Sources& sources,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How an error travels inside this room: thrown without a place by what computes, caught and given its span by
-// the machine. Neither leaves the room.
+// How an error travels inside this room: thrown without a place by what computes, caught and given
+// its span by the machine. Neither leaves the room.
 #pragma once
 
 #include <string>

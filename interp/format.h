@@ -7,8 +7,8 @@
 
 namespace tranos::interp {
 
-// The script in the one layout, comments kept; formatting the result again changes nothing, and its effect
-// is that of the text formatted. For a tree without errors.
+// The script in the one layout, comments kept; formatting the result again changes nothing, and its
+// effect is that of the text formatted. For a tree without errors.
 std::string Format(const SourceText& source, const SyntaxTree& tree);
 
 }  // namespace tranos::interp

@@ -55,7 +55,8 @@ Value Range(const CallContext& context, Arguments a) {
   }
   AlignAll(numbers, *context.arithmetic.unit, "ends and step of one range");
   const double from = numbers[0].number(), to = numbers[1].number(), step = numbers[2].number();
-  if (step == 0) throw OpFailure{Code::kOutOfRange, "the step of a range cannot be zero", "", "", 2};
+  if (step == 0)
+    throw OpFailure{Code::kOutOfRange, "the step of a range cannot be zero", "", "", 2};
   const double count = StepsIn(to - from, step) + 1;
   if (std::isnan(count)) throw OpFailure{Code::kNotFinite, "the range is too long to be counted"};
   return Value::List(Progression(context, from, step, count, numbers[0].dimension()));

@@ -21,9 +21,9 @@ struct CallContext {
 };
 
 struct Builtin {
-  std::string_view usage;    // "sqrt(x)"
+  std::string_view usage;  // "sqrt(x)"
   std::string_view summary;
-  int least, most;           // arguments; most < 0: any number
+  int least, most;  // arguments; most < 0: any number
   model::Value (*call)(const CallContext&, std::span<const model::Value>);
   std::string_view name() const { return usage.substr(0, usage.find('(')); }
 };
@@ -37,8 +37,8 @@ model::Value CallMember(const CallContext& context, const model::Value& value,
                         std::string_view name, std::span<const model::Value> arguments);
 // list[i], list[a..b]. Throws OpFailure.
 model::Value IndexInto(const model::Value& list, const model::Value& index);
-// The interface that a value stands for: a record of type "interface" with name, at, axis, dir, plane and its
-// measures. Throws OpFailure for any other value.
+// The interface that a value stands for: a record of type "interface" with name, at, axis, dir,
+// plane and its measures. Throws OpFailure for any other value.
 model::Interface InterfaceOf(const model::Value& value);
 // The element as it now stands in the model, for one that was named or chosen before it changed.
 model::ElementPtr CurrentElement(const model::State& state, const model::ElementPtr& element);

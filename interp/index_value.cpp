@@ -27,11 +27,14 @@ std::size_t WholeIndex(double index, std::size_t size, int operand) {
 }  // namespace
 
 Value IndexInto(const Value& list, const Value& index) {
-  if (!list.is_list()) throw OpFailure{Code::kWrongType, Describe(list) + " has no items", "", "", 0};
+  if (!list.is_list())
+    throw OpFailure{Code::kWrongType, Describe(list) + " has no items", "", "", 0};
   const auto& items = list.list();
-  if (index.is_number() && index.dimension().plain()) return items[WholeIndex(index.number(), items.size(), 1)];
+  if (index.is_number() && index.dimension().plain())
+    return items[WholeIndex(index.number(), items.size(), 1)];
   if (index.kind() != Value::Kind::kRange || !index.dimension().plain()) {
-    throw OpFailure{Code::kWrongType, "an index is a whole number or a range, not " + Describe(index), "", "", 1};
+    throw OpFailure{Code::kWrongType,
+                    "an index is a whole number or a range, not " + Describe(index), "", "", 1};
   }
   if (index.range().to < index.range().from) return Value::List({});
   const auto first = static_cast<std::ptrdiff_t>(WholeIndex(index.range().from, items.size(), 1));

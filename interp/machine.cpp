@@ -24,12 +24,18 @@ inline bool Alike(const Value& a, const Value& b) {
 
 bool FastCompare(Op op, double a, double b) {
   switch (op) {
-    case Op::kEqual: return a == b;
-    case Op::kNotEqual: return a != b;
-    case Op::kLess: return a < b;
-    case Op::kLessEqual: return a <= b;
-    case Op::kGreater: return a > b;
-    default: return a >= b;
+    case Op::kEqual:
+      return a == b;
+    case Op::kNotEqual:
+      return a != b;
+    case Op::kLess:
+      return a < b;
+    case Op::kLessEqual:
+      return a <= b;
+    case Op::kGreater:
+      return a > b;
+    default:
+      return a >= b;
   }
 }
 
@@ -50,7 +56,9 @@ StageLinks Machine::LinksFor(bool is_script) {
           &host_,
           is_script ? &outcome_.outputs : nullptr,
           is_script ? &outcome_.output_spans : nullptr,
-          [this](const Placement& placement, const model::State& state) { return Place(placement, state); },
+          [this](const Placement& placement, const model::State& state) {
+            return Place(placement, state);
+          },
           &turns_,
           &turn_values_};
 }
@@ -65,7 +73,10 @@ Outcome Machine::Run() {
   } catch (RunFailure& failure) {
     outcome_.diagnostics.Add(std::move(failure.diagnostic));
   } catch (const std::bad_alloc&) {
-    outcome_.diagnostics.Add({Code::kMemoryLimit, {}, "the run needs more memory than its limit", "",
+    outcome_.diagnostics.Add({Code::kMemoryLimit,
+                              {},
+                              "the run needs more memory than its limit",
+                              "",
                               "--limit memory=N raises it"});
   }
   outcome_.state = stage.state();
@@ -74,10 +85,12 @@ Outcome Machine::Run() {
   return std::move(outcome_);
 }
 
-void Machine::Throw(const OpFailure& failure, Span span, const CodeUnit* unit, std::uint32_t at) const {
+void Machine::Throw(const OpFailure& failure, Span span, const CodeUnit* unit,
+                    std::uint32_t at) const {
   if (unit && failure.operand >= 0) {
     const auto found = unit->argument_spans.find(at);
-    if (found != unit->argument_spans.end() && static_cast<std::size_t>(failure.operand) < found->second.size()) {
+    if (found != unit->argument_spans.end() &&
+        static_cast<std::size_t>(failure.operand) < found->second.size()) {
       span = found->second[static_cast<std::size_t>(failure.operand)];
     }
   }
@@ -111,26 +124,34 @@ Value Machine::Execute(std::uint32_t unit_id, Value* r, std::uint32_t from, Stag
     for (;;) {
       const Instruction& i = code[at];
       switch (i.op) {
-        case Op::kMove: r[i.a] = Get(i.b, r, k); break;
+        case Op::kMove:
+          r[i.a] = Get(i.b, r, k);
+          break;
         case Op::kAdd: {
           const Value &x = Get(i.b, r, k), &y = Get(i.c, r, k);
           const double sum = x.fast_value() + y.fast_value();
-          if (Alike(x, y) && std::isfinite(sum)) r[i.a] = Value::Number(sum, x.dimension());
-          else Compute(i, unit, r, unit.spans[at]);
+          if (Alike(x, y) && std::isfinite(sum))
+            r[i.a] = Value::Number(sum, x.dimension());
+          else
+            Compute(i, unit, r, unit.spans[at]);
           break;
         }
         case Op::kSubtract: {
           const Value &x = Get(i.b, r, k), &y = Get(i.c, r, k);
           const double difference = x.fast_value() - y.fast_value();
-          if (Alike(x, y) && std::isfinite(difference)) r[i.a] = Value::Number(difference, x.dimension());
-          else Compute(i, unit, r, unit.spans[at]);
+          if (Alike(x, y) && std::isfinite(difference))
+            r[i.a] = Value::Number(difference, x.dimension());
+          else
+            Compute(i, unit, r, unit.spans[at]);
           break;
         }
         case Op::kMultiply: {
           const Value &x = Get(i.b, r, k), &y = Get(i.c, r, k);
           const double product = x.fast_value() * y.fast_value();
-          if (Alike(x, y) && x.dimension().plain() && std::isfinite(product)) r[i.a] = Value::Number(product);
-          else Compute(i, unit, r, unit.spans[at]);
+          if (Alike(x, y) && x.dimension().plain() && std::isfinite(product))
+            r[i.a] = Value::Number(product);
+          else
+            Compute(i, unit, r, unit.spans[at]);
           break;
         }
         case Op::kDivide: {
@@ -152,15 +173,20 @@ Value Machine::Execute(std::uint32_t unit_id, Value* r, std::uint32_t from, Stag
         case Op::kGreater:
         case Op::kGreaterEqual: {
           const Value &x = Get(i.b, r, k), &y = Get(i.c, r, k);
-          if (Alike(x, y)) r[i.a] = Value::Boolean(FastCompare(i.op, x.fast_value(), y.fast_value()));
-          else Compute(i, unit, r, unit.spans[at]);
+          if (Alike(x, y))
+            r[i.a] = Value::Boolean(FastCompare(i.op, x.fast_value(), y.fast_value()));
+          else
+            Compute(i, unit, r, unit.spans[at]);
           break;
         }
-        case Op::kJump: at = i.a; continue;
+        case Op::kJump:
+          at = i.a;
+          continue;
         case Op::kJumpIfFalse: {
           const Value& condition = Get(i.b, r, k);
           if (!condition.is_boolean()) {
-            Fail(Code::kNotBoolean, unit.spans[at], "the condition is " + Describe(condition), "expected true or false");
+            Fail(Code::kNotBoolean, unit.spans[at], "the condition is " + Describe(condition),
+                 "expected true or false");
           }
           if (!condition.boolean()) {
             at = i.a;
@@ -207,8 +233,10 @@ Value Machine::Execute(std::uint32_t unit_id, Value* r, std::uint32_t from, Stag
           r[i.a] = CallUnit(i.c, {r + i.b, count}, {}, unit.spans[at]);
           break;
         }
-        case Op::kReturn: return Get(i.b, r, k);
-        case Op::kHalt: return {};
+        case Op::kReturn:
+          return Get(i.b, r, k);
+        case Op::kHalt:
+          return {};
         default:
           if (i.op < Op::kStart || i.op == Op::kCheckRange || i.op == Op::kUnknown) {
             Compute(i, unit, r, unit.spans[at]);
@@ -226,18 +254,20 @@ Value Machine::Execute(std::uint32_t unit_id, Value* r, std::uint32_t from, Stag
   }
 }
 
-Value Machine::CallUnit(std::uint32_t unit_id, std::span<const Value> arguments, std::span<const Value> captured,
-                        Span span) {
+Value Machine::CallUnit(std::uint32_t unit_id, std::span<const Value> arguments,
+                        std::span<const Value> captured, Span span) {
   const CodeUnit& unit = program_.units[unit_id];
   budget_.ChargeSteps(1, span);
   if (++call_depth_ > budget_.limits.depth) {
     call_depth_ = 0;
-    Fail(Code::kDepthLimit, span, "calls are nested more than " + std::to_string(budget_.limits.depth) + " deep", "",
+    Fail(Code::kDepthLimit, span,
+         "calls are nested more than " + std::to_string(budget_.limits.depth) + " deep", "",
          "does the function call itself without end? --limit depth=N raises the limit");
   }
   Registers registers(unit.registers);
   std::copy(arguments.begin(), arguments.end(), registers.begin());
-  std::copy(captured.begin(), captured.end(), registers.begin() + static_cast<std::ptrdiff_t>(arguments.size()));
+  std::copy(captured.begin(), captured.end(),
+            registers.begin() + static_cast<std::ptrdiff_t>(arguments.size()));
   Value result = Execute(unit_id, registers.data(), 0, stage_);
   --call_depth_;
   return result;
@@ -245,12 +275,14 @@ Value Machine::CallUnit(std::uint32_t unit_id, std::span<const Value> arguments,
 
 Value Machine::CallClosure(const Value& closure, std::span<const Value> arguments, Span span) {
   if (closure.kind() != Value::Kind::kClosure) {
-    throw OpFailure{Code::kWrongType, Describe(closure) + " is not a function", "expected a function such as x => x * 2"};
+    throw OpFailure{Code::kWrongType, Describe(closure) + " is not a function",
+                    "expected a function such as x => x * 2"};
   }
   const auto& code = *static_cast<const ClosureCode*>(closure.closure().code.get());
   const std::size_t parameters = program_.units[code.unit].parameters;
   if (arguments.size() != parameters) {
-    throw OpFailure{Code::kWrongCount, "the function takes " + std::to_string(parameters) + " value, and is given " +
+    throw OpFailure{Code::kWrongCount, "the function takes " + std::to_string(parameters) +
+                                           " value, and is given " +
                                            std::to_string(arguments.size())};
   }
   if (code.stage == stage_) return CallUnit(code.unit, arguments, closure.closure().captured, span);
@@ -263,12 +295,14 @@ bool Machine::BeginCount(const Instruction& i, Value* r, Span span) {
   Value &from = r[i.a], &to = r[i.a + 1], &step = r[i.a + 2];
   if (!from.is_number() || !to.is_number() || !(step.is_none() || step.is_number())) {
     const Value& wrong = !from.is_number() ? from : !to.is_number() ? to : step;
-    Fail(Code::kBadLoop, span, "a loop counts over numbers, not over " + Describe(wrong), "", "for x in LIST goes through a list");
+    Fail(Code::kBadLoop, span, "a loop counts over numbers, not over " + Describe(wrong), "",
+         "for x in LIST goes through a list");
   }
   const Unit& unit = program_.measures[i.n];
   if (step.is_none()) step = Value::Number(BareFactor(from.dimension(), unit), from.dimension());
   if (!Align(&from, &to, unit) || !Align(&from, &step, unit) || !Align(&from, &to, unit)) {
-    Fail(Code::kBadLoop, span, "the loop goes from " + Describe(from) + " to " + Describe(to) + " by " + Describe(step));
+    Fail(Code::kBadLoop, span,
+         "the loop goes from " + Describe(from) + " to " + Describe(to) + " by " + Describe(step));
   }
   if (step.number() == 0) Fail(Code::kBadLoop, span, "the step of the loop is zero");
   // How many turns: a bound that is met but for rounding is met.
@@ -305,7 +339,8 @@ bool Machine::BeginEach(const Instruction& i, Value* r, Span span) {
   if (list.kind() == Value::Kind::kRange && list.dimension().plain()) {
     // a..b counts up by one.
     const double first = list.range().from, count = std::floor(list.range().to - first + 1e-9) + 1;
-    if (count > 0) budget_.ChargeBytes(static_cast<std::uint64_t>(std::min(count, 1e18)) * sizeof(Value), span);
+    if (count > 0)
+      budget_.ChargeBytes(static_cast<std::uint64_t>(std::min(count, 1e18)) * sizeof(Value), span);
     std::vector<Value> items;
     for (double n = 0; n < count; ++n) {
       budget_.ChargeSteps(1, span);
@@ -314,7 +349,8 @@ bool Machine::BeginEach(const Instruction& i, Value* r, Span span) {
     list = Value::List(std::move(items));
   }
   if (!list.is_list()) {
-    Fail(Code::kBadLoop, span, "a loop goes through a list, not through " + Describe(list), "", "for i = 1 to 8 counts");
+    Fail(Code::kBadLoop, span, "a loop goes through a list, not through " + Describe(list), "",
+         "for i = 1 to 8 counts");
   }
   if (list.list().empty()) return false;
   turns_.push_back(0);
@@ -380,7 +416,8 @@ void Machine::CheckRange(const Instruction& i, const CodeUnit& unit, const Value
     const Value items = value.is_list() ? value : Value::List({value});
     inside = true;
     for (const Value& item : items.list()) {
-      inside = inside && item.is_number() && Binary(Op::kWithin, item, range, {&measure, &sources_}).boolean();
+      inside = inside && item.is_number() &&
+               Binary(Op::kWithin, item, range, {&measure, &sources_}).boolean();
     }
   } else if (range.is_list()) {
     for (const Value& allowed : range.list()) {
@@ -401,23 +438,27 @@ void Machine::CheckRange(const Instruction& i, const CodeUnit& unit, const Value
   };
   std::string expected;
   if (range.is_list()) {
-    for (const Value& item : range.list()) expected += (expected.empty() ? "one of " : ", ") + shown(item);
+    for (const Value& item : range.list())
+      expected += (expected.empty() ? "one of " : ", ") + shown(item);
   } else {
     expected = shown(range);
   }
   Fail(Code::kOutOfRange, at, "`" + name + "` is " + shown(value) + ", outside its range",
-       "expected " + expected, "", at == span ? std::vector<Note>{} : std::vector<Note>{{span, "declared here"}});
+       "expected " + expected, "",
+       at == span ? std::vector<Note>{} : std::vector<Note>{{span, "declared here"}});
 }
 
-// A value that crosses into or out of a definition's body: its elements are geometry there, for their ids mean
-// other elements.
+// A value that crosses into or out of a definition's body: its elements are geometry there, for
+// their ids mean other elements.
 Value Machine::Detached(const Value& value, Span span, int depth) {
   if (value.is_element()) {
     return Value::OfElement(model::WithId(*value.element(), model::kNoElement));
   }
   if (!value.holds_elements()) return value;
   if (depth > budget_.limits.depth) {
-    Fail(Code::kDepthLimit, span, "lists of elements are nested more than " + std::to_string(budget_.limits.depth) + " deep");
+    Fail(
+        Code::kDepthLimit, span,
+        "lists of elements are nested more than " + std::to_string(budget_.limits.depth) + " deep");
   }
   budget_.ChargeSteps(value.list().size(), span);
   std::vector<Value> items;
@@ -437,11 +478,13 @@ void Machine::Compute(const Instruction& i, const CodeUnit& unit, Value* r, Span
       r[i.a] = Negate(b());
       break;
     case Op::kNot:
-      if (!b().is_boolean()) Fail(Code::kNotBoolean, span, "`not` takes true or false, not " + Describe(b()));
+      if (!b().is_boolean())
+        Fail(Code::kNotBoolean, span, "`not` takes true or false, not " + Describe(b()));
       r[i.a] = Value::Boolean(!b().boolean());
       break;
     case Op::kCheckBoolean:
-      if (!b().is_boolean()) Fail(Code::kNotBoolean, span, "this is " + Describe(b()), "expected true or false");
+      if (!b().is_boolean())
+        Fail(Code::kNotBoolean, span, "this is " + Describe(b()), "expected true or false");
       if (i.a != i.b) r[i.a] = b();
       break;
     case Op::kPlusMinus:
@@ -467,9 +510,15 @@ void Machine::Compute(const Instruction& i, const CodeUnit& unit, Value* r, Span
       r[i.a] = b().is_string() ? b() : Value::String(Format(b(), measure, decimals, &sources_));
       break;
     }
-    case Op::kMember: r[i.a] = Member(ContextOf(i, span), b(), c().string()); break;
-    case Op::kIndex: r[i.a] = IndexInto(b(), c()); break;
-    case Op::kConvert: r[i.a] = Convert(b(), static_cast<Type>(i.flags), measure, c().string()); break;
+    case Op::kMember:
+      r[i.a] = Member(ContextOf(i, span), b(), c().string());
+      break;
+    case Op::kIndex:
+      r[i.a] = IndexInto(b(), c());
+      break;
+    case Op::kConvert:
+      r[i.a] = Convert(b(), static_cast<Type>(i.flags), measure, c().string());
+      break;
     case Op::kConvertList: {
       const Value list = b().is_list() ? b() : Value::List({b()});
       std::vector<Value> items;
@@ -486,7 +535,9 @@ void Machine::Compute(const Instruction& i, const CodeUnit& unit, Value* r, Span
       r[i.a] = row.call(ContextOf(i, span), {r + i.b, i.c});
       break;
     }
-    case Op::kCallValue: r[i.a] = CallClosure(r[i.b - 1], {r + i.b, i.c}, span); break;
+    case Op::kCallValue:
+      r[i.a] = CallClosure(r[i.b - 1], {r + i.b, i.c}, span);
+      break;
     case Op::kCallMember: {
       budget_.ChargeSteps(1, span);
       r[i.a] = CallMember(ContextOf(i, span), r[i.b - 2], r[i.b - 1].string(), {r + i.b, i.c});
@@ -504,18 +555,22 @@ void Machine::Compute(const Instruction& i, const CodeUnit& unit, Value* r, Span
     case Op::kLoadOuter: {
       const Activation& activation = innermost_[i.b];
       if (!activation.registers || activation.registers[i.c].is_none()) {
-        Fail(Code::kNotYetBound, span, "this name has no value yet", "", "bind it before the first use of the function");
+        Fail(Code::kNotYetBound, span, "this name has no value yet", "",
+             "bind it before the first use of the function");
       }
-      r[i.a] = activation.stage == stage_ ? activation.registers[i.c] : Detached(activation.registers[i.c], span);
+      r[i.a] = activation.stage == stage_ ? activation.registers[i.c]
+                                          : Detached(activation.registers[i.c], span);
       break;
     }
     case Op::kLoadLast: {
       const model::State& state = stage_->state();
       std::vector<Value> items;
       for (model::ElementId id : state.drawing.last) {
-        if (model::ElementPtr element = state.model.Current(id)) items.push_back(Value::OfElement(std::move(element)));
+        if (model::ElementPtr element = state.model.Current(id))
+          items.push_back(Value::OfElement(std::move(element)));
       }
-      if (items.empty()) Fail(Code::kNotYetBound, span, "nothing was made yet that `last` could mean");
+      if (items.empty())
+        Fail(Code::kNotYetBound, span, "nothing was made yet that `last` could mean");
       r[i.a] = items.size() == 1 ? items[0] : Value::List(std::move(items));
       break;
     }
@@ -529,17 +584,23 @@ void Machine::Compute(const Instruction& i, const CodeUnit& unit, Value* r, Span
       const ScopePlace& place = places_[i.b];
       const model::Names& names = place.stage->NamesOut(place.stage->groups() - place.depth);
       if (names[i.c].given) {
-        Fail(Code::kBoundTwice, span, "`" + program_.scopes[i.b].names[i.c] + "` names something already",
+        Fail(Code::kBoundTwice, span,
+             "`" + program_.scopes[i.b].names[i.c] + "` names something already",
              "named again in this loop", "choose another name");
       }
       break;
     }
-    case Op::kCheckRange: CheckRange(i, unit, r, span); break;
+    case Op::kCheckRange:
+      CheckRange(i, unit, r, span);
+      break;
     case Op::kUnknown: {
       const UnknownInfo& unknown = program_.unknowns[i.c];
-      if (!b().is_number()) Fail(Code::kWrongType, span, "an unknown is a number, not " + Describe(b()));
-      outcome_.diagnostics.Add({Code::kUnknownUnsolved, span, "`" + unknown.name + "` keeps its start, " + Format(b(), measure, -1),
-                                "", "`calibrate` would solve for it"});
+      if (!b().is_number())
+        Fail(Code::kWrongType, span, "an unknown is a number, not " + Describe(b()));
+      outcome_.diagnostics.Add(
+          {Code::kUnknownUnsolved, span,
+           "`" + unknown.name + "` keeps its start, " + Format(b(), measure, -1), "",
+           "`calibrate` would solve for it"});
       r[i.a] = b();
       break;
     }
@@ -550,7 +611,8 @@ void Machine::Compute(const Instruction& i, const CodeUnit& unit, Value* r, Span
   }
 }
 
-void Machine::PointEffect(const Instruction& i, const CodeUnit& unit, const Value* r, Stage* stage, Span span) {
+void Machine::PointEffect(const Instruction& i, const CodeUnit& unit, const Value* r, Stage* stage,
+                          Span span) {
   const auto kind = static_cast<PointKey>(i.flags & ~kPackedPoint);
   if (i.flags & kPackedPoint) {
     const Value& value = Get(i.b, r, unit.constants.data());
@@ -562,50 +624,81 @@ void Machine::PointEffect(const Instruction& i, const CodeUnit& unit, const Valu
     // A whole offset as one value, or its first coordinate.
     const Value& value = r[i.b];
     const bool whole = value.is_list();
-    return stage->Point(kind, Convert(value, whole ? Type::kPoint : Type::kLength, measure, "the offset"), span);
+    return stage->Point(
+        kind, Convert(value, whole ? Type::kPoint : Type::kLength, measure, "the offset"), span);
   }
   stage->Point(kind, Value::List(std::vector<Value>(r + i.b, r + i.b + i.c)), span);
 }
 
-void Machine::Effect(const Instruction& i, const CodeUnit& unit, Value* r, Stage* stage, Span span) {
+void Machine::Effect(const Instruction& i, const CodeUnit& unit, Value* r, Stage* stage,
+                     Span span) {
   const Value* const k = unit.constants.data();
-  const auto text = [&](Operand operand) -> const std::string& { return Get(operand, r, k).string(); };
+  const auto text = [&](Operand operand) -> const std::string& {
+    return Get(operand, r, k).string();
+  };
   switch (i.op) {
     case Op::kStart: {
       budget_.ChargeSteps(1, span);
       const std::int32_t definition = program_.row_definition[i.a];
-      stage->Start(program_.rows[i.a],
-                   definition < 0 ? nullptr : &program_.definitions[static_cast<std::size_t>(definition)], span);
+      stage->Start(
+          program_.rows[i.a],
+          definition < 0 ? nullptr : &program_.definitions[static_cast<std::size_t>(definition)],
+          span);
       break;
     }
-    case Op::kOption: stage->Option(text(i.a), span); break;
-    case Op::kBareString: stage->BareString(text(i.b), span); break;
+    case Op::kOption:
+      stage->Option(text(i.a), span);
+      break;
+    case Op::kBareString:
+      stage->BareString(text(i.b), span);
+      break;
     case Op::kParameterKey:
       budget_.ChargeSteps(1, span);
       stage->Parameter(i.a, Get(i.b, r, k), span);
       break;
-    case Op::kPoint: PointEffect(i, unit, r, stage, span); break;
-    case Op::kSetting: stage->Set(AllSettings()[i.flags], Get(i.b, r, k), span); break;
-    case Op::kReset: stage->Reset(span); break;
-    case Op::kName:
-      stage->Name(text(i.a), i.c, i.flags & 1, i.flags & 1 ? static_cast<std::size_t>(r[i.b].fast_value()) : 0, span);
+    case Op::kPoint:
+      PointEffect(i, unit, r, stage, span);
       break;
-    case Op::kEndStatement: stage->EndStatement(span); break;
-    case Op::kEndCommand: stage->EndCommand(span); break;
-    case Op::kBlockBegin: stage->BlockBegin(i.flags & 1); break;
-    case Op::kBlockEnd: stage->BlockEnd(span); break;
+    case Op::kSetting:
+      stage->Set(AllSettings()[i.flags], Get(i.b, r, k), span);
+      break;
+    case Op::kReset:
+      stage->Reset(span);
+      break;
+    case Op::kName:
+      stage->Name(text(i.a), i.c, i.flags & 1,
+                  i.flags & 1 ? static_cast<std::size_t>(r[i.b].fast_value()) : 0, span);
+      break;
+    case Op::kEndStatement:
+      stage->EndStatement(span);
+      break;
+    case Op::kEndCommand:
+      stage->EndCommand(span);
+      break;
+    case Op::kBlockBegin:
+      stage->BlockBegin(i.flags & 1);
+      break;
+    case Op::kBlockEnd:
+      stage->BlockEnd(span);
+      break;
     case Op::kGroupBegin:
       stage->GroupBegin(i.a, span);
-      outer_places_.emplace_back(i.a, std::exchange(places_[i.a], ScopePlace{stage, stage->groups()}));
+      outer_places_.emplace_back(i.a,
+                                 std::exchange(places_[i.a], ScopePlace{stage, stage->groups()}));
       break;
     case Op::kGroupEnd:
       stage->GroupEnd(span);
       places_[outer_places_.back().first] = outer_places_.back().second;
       outer_places_.pop_back();
       break;
-    case Op::kInterface: NoteInterface(i, unit, r, span); break;
-    case Op::kAssert: NoteAssert(i, unit, r, span); break;
-    default: break;  // computed elsewhere
+    case Op::kInterface:
+      NoteInterface(i, unit, r, span);
+      break;
+    case Op::kAssert:
+      NoteAssert(i, unit, r, span);
+      break;
+    default:
+      break;  // computed elsewhere
   }
 }
 

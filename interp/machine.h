@@ -37,23 +37,32 @@ class Machine {
     std::uint64_t serial;  // tells function values of a run apart
   };
 
-  model::Value Execute(std::uint32_t unit, model::Value* registers, std::uint32_t from, Stage* stage);
+  model::Value Execute(std::uint32_t unit, model::Value* registers, std::uint32_t from,
+                       Stage* stage);
   model::Value CallUnit(std::uint32_t unit, std::span<const model::Value> arguments,
                         std::span<const model::Value> captured, Span span);
-  model::Value CallClosure(const model::Value& closure, std::span<const model::Value> arguments, Span span);
+  model::Value CallClosure(const model::Value& closure, std::span<const model::Value> arguments,
+                           Span span);
   // The slower instructions, each in a function of its own.
-  void Compute(const Instruction& instruction, const CodeUnit& unit, model::Value* registers, Span span);
+  void Compute(const Instruction& instruction, const CodeUnit& unit, model::Value* registers,
+               Span span);
   bool BeginCount(const Instruction& i, model::Value* registers, Span span);
   bool NextCount(const Instruction& i, model::Value* registers, Span span);
   bool BeginEach(const Instruction& i, model::Value* registers, Span span);
   bool NextEach(const Instruction& i, model::Value* registers, Span span);
-  model::Value LoadName(const Instruction& i, const model::Value* registers, const Instruction& next, Span span);
+  model::Value LoadName(const Instruction& i, const model::Value* registers,
+                        const Instruction& next, Span span);
   model::Value Detached(const model::Value& value, Span span, int depth = 0);
-  void Effect(const Instruction& i, const CodeUnit& unit, model::Value* registers, Stage* stage, Span span);
-  void PointEffect(const Instruction& i, const CodeUnit& unit, const model::Value* registers, Stage* stage, Span span);
-  void NoteAssert(const Instruction& i, const CodeUnit& unit, const model::Value* registers, Span span);
-  void CheckRange(const Instruction& i, const CodeUnit& unit, const model::Value* registers, Span span);
-  void NoteInterface(const Instruction& i, const CodeUnit& unit, const model::Value* registers, Span span);
+  void Effect(const Instruction& i, const CodeUnit& unit, model::Value* registers, Stage* stage,
+              Span span);
+  void PointEffect(const Instruction& i, const CodeUnit& unit, const model::Value* registers,
+                   Stage* stage, Span span);
+  void NoteAssert(const Instruction& i, const CodeUnit& unit, const model::Value* registers,
+                  Span span);
+  void CheckRange(const Instruction& i, const CodeUnit& unit, const model::Value* registers,
+                  Span span);
+  void NoteInterface(const Instruction& i, const CodeUnit& unit, const model::Value* registers,
+                     Span span);
   // Definitions (placing.cpp).
   model::ElementPtr Place(const Placement& placement, const model::State& state);
   model::PrototypePtr Build(const Definition& definition, Registers registers, Span span);
@@ -62,7 +71,8 @@ class Machine {
 
   CallContext ContextOf(const Instruction& i, Span span);
   StageLinks LinksFor(bool is_script);
-  [[noreturn]] void Throw(const OpFailure& failure, Span span, const CodeUnit* unit, std::uint32_t at) const;
+  [[noreturn]] void Throw(const OpFailure& failure, Span span, const CodeUnit* unit,
+                          std::uint32_t at) const;
 
   const Program& program_;
   const RunOptions& options_;
@@ -70,8 +80,8 @@ class Machine {
   Budget budget_;
   Outcome outcome_;
   SourceList sources_;
-  std::vector<Activation> innermost_;     // by unit
-  std::vector<ScopePlace> places_;        // by name scope
+  std::vector<Activation> innermost_;                               // by unit
+  std::vector<ScopePlace> places_;                                  // by name scope
   std::vector<std::pair<std::uint32_t, ScopePlace>> outer_places_;  // of the groups that are open
   std::vector<std::uint32_t> turns_;
   std::vector<const model::Value*> turn_values_;  // the variables of the loops that are open
@@ -83,7 +93,8 @@ class Machine {
   std::vector<model::Interface>* interfaces_ = nullptr;  // of the definition being built
   std::map<std::pair<std::uint32_t, model::Hash128>, model::PrototypePtr> prototypes_;
   std::unordered_map<std::uint32_t, std::vector<std::pair<std::uint32_t, std::uint32_t>>> outer_;
-  std::unordered_map<std::uint32_t, std::vector<std::pair<std::uint32_t, std::uint32_t>>> outer_names_;
+  std::unordered_map<std::uint32_t, std::vector<std::pair<std::uint32_t, std::uint32_t>>>
+      outer_names_;
 };
 
 }  // namespace tranos::interp

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Placing a defined element: its body is run once for the same arguments, and placed any number of times.
+// Placing a defined element: its body is run once for the same arguments, and placed any number of
+// times.
 #include <algorithm>
 #include <cmath>
 
@@ -55,11 +56,13 @@ const std::vector<std::pair<std::uint32_t, std::uint32_t>>& Machine::OuterOf(std
 
 namespace {
 
-// Two elements of equal content may still differ in what they can be asked for: an instance's parameters and
-// interfaces, a group's names. Prototypes live as long as the run, so their addresses tell them apart.
+// Two elements of equal content may still differ in what they can be asked for: an instance's
+// parameters and interfaces, a group's names. Prototypes live as long as the run, so their
+// addresses tell them apart.
 void AddMembers(model::Hasher& hasher, const model::Element& element) {
   if (const auto* instance = std::get_if<model::InstancePtr>(&element.geometry)) {
-    hasher.Integer(static_cast<std::int64_t>(reinterpret_cast<std::intptr_t>((*instance)->prototype.get())));
+    hasher.Integer(
+        static_cast<std::int64_t>(reinterpret_cast<std::intptr_t>((*instance)->prototype.get())));
   } else if (const auto* group = std::get_if<model::GroupPtr>(&element.geometry)) {
     for (const model::NamedElements& named : (*group)->names) {
       hasher.Text(named.name);
@@ -92,7 +95,8 @@ Hash128 Machine::KeyOf(const Definition& definition, const Registers& registers,
     AddMembers(hasher, shown);
     // A function value has no content to hash: only itself is the same.
     if (value.kind() == Value::Kind::kClosure) {
-      hasher.Integer(static_cast<std::int64_t>(static_cast<const ClosureCode*>(value.closure().code.get())->serial));
+      hasher.Integer(static_cast<std::int64_t>(
+          static_cast<const ClosureCode*>(value.closure().code.get())->serial));
     }
   }
   for (const auto& [scope, index] : outer_names_[definition.unit]) {
@@ -128,10 +132,11 @@ model::ElementPtr Machine::Place(const Placement& placement, const model::State&
       if (registers[i].is_none()) {
         registers[i] = value;
       } else if (!model::Same(registers[i], value)) {
-        outcome_.diagnostics.Add({Code::kInterfaceDiffers, placement.argument_spans[i],
-                                  "`" + name + "` is " + Format(registers[i], program_.measures[0], -1) +
-                                      ", but the interface says " + Format(value, program_.measures[0], -1),
-                                  "", "leave `" + name + "=` out to take the interface's"});
+        outcome_.diagnostics.Add(
+            {Code::kInterfaceDiffers, placement.argument_spans[i],
+             "`" + name + "` is " + Format(registers[i], program_.measures[0], -1) +
+                 ", but the interface says " + Format(value, program_.measures[0], -1),
+             "", "leave `" + name + "=` out to take the interface's"});
       }
     }
   }
@@ -169,9 +174,8 @@ model::PrototypePtr Machine::Build(const Definition& definition, Registers regis
     Execute(definition.unit, registers.data(), program_.units[definition.unit].body, &stage);
   }
   prototype.words = definition.words.substr(definition.words.find(' ') + 1);
-  stage.state().model.ForEach([&](const model::ElementPtr& part) {
-    prototype.parts.push_back(part);
-  });
+  stage.state().model.ForEach(
+      [&](const model::ElementPtr& part) { prototype.parts.push_back(part); });
   if (prototype.parts.empty()) {
     Fail(Code::kNothingMade, span, "`" + definition.words + "` makes nothing", "", "",
          {{definition.span, "its body leaves no element in the model"}});
@@ -188,28 +192,36 @@ void Machine::NoteInterface(const Instruction& i, const CodeUnit& unit, const Va
   for (std::uint32_t n = 0; n < i.c; ++n) {
     const std::string& key = r[i.b + 2 * n].string();
     const Value& value = r[i.b + 2 * n + 1];
-    if (key == "at") interface.frame.origin = PointOf(value);
-    else if (key == "axis") axis = PointOf(value);
-    else if (key == "dir") direction = PointOf(value);
-    else if (value.holds_elements() || value.kind() == Value::Kind::kClosure || value.kind() == Value::Kind::kRecord) {
-      Fail(Code::kWrongType, span, "the measure `" + key + "` is " + Describe(value), "expected a number such as 4.5m",
+    if (key == "at")
+      interface.frame.origin = PointOf(value);
+    else if (key == "axis")
+      axis = PointOf(value);
+    else if (key == "dir")
+      direction = PointOf(value);
+    else if (value.holds_elements() || value.kind() == Value::Kind::kClosure ||
+             value.kind() == Value::Kind::kRecord) {
+      Fail(Code::kWrongType, span, "the measure `" + key + "` is " + Describe(value),
+           "expected a number such as 4.5m",
            "name the part with `as`: it is then a member of the placed element");
     } else {
       interface.measures.emplace_back(key, value);
     }
   }
-  if (!(axis.norm() > 0)) Fail(Code::kDegenerate, span, "the axis of the interface has no direction");
+  if (!(axis.norm() > 0))
+    Fail(Code::kDegenerate, span, "the axis of the interface has no direction");
   axis.normalize();
   Vec3 x = direction - direction.dot(axis) * axis;
   if (!(x.norm() > 1e-9)) {
-    const Vec3 aside = std::abs(axis.z()) > 0.999 ? Vec3(Vec3::UnitX()) : Vec3(Vec3::UnitZ().cross(axis));
+    const Vec3 aside =
+        std::abs(axis.z()) > 0.999 ? Vec3(Vec3::UnitX()) : Vec3(Vec3::UnitZ().cross(axis));
     x = aside - aside.dot(axis) * axis;
   }
   interface.frame.x = x.normalized();
   interface.frame.y = axis.cross(interface.frame.x);
   for (const model::Interface& known : *interfaces_) {
     if (known.name == interface.name) {
-      Fail(Code::kBoundTwice, span, "the definition has an interface `" + interface.name + "` already");
+      Fail(Code::kBoundTwice, span,
+           "the definition has an interface `" + interface.name + "` already");
     }
   }
   interfaces_->push_back(std::move(interface));

@@ -44,10 +44,10 @@ Bound Bind(std::shared_ptr<Sources> sources, const SyntaxTree& tree, const BindO
 struct Step {
   std::string key_in;  // with its values, as it could be keyed in again
   Span span;
-  const model::Edit* edit = nullptr;         // null when the key-in fired nothing
-  std::vector<model::ElementId> ids;         // made or changed
-  const model::State* state = nullptr;       // after it
-  const Sources* sources = nullptr;          // every file read: complete before the first step
+  const model::Edit* edit = nullptr;    // null when the key-in fired nothing
+  std::vector<model::ElementId> ids;    // made or changed
+  const model::State* state = nullptr;  // after it
+  const Sources* sources = nullptr;     // every file read: complete before the first step
   // Where an element comes from, for matching across runs: the statement's span, the turn of each
   // loop around it, the command's words, and what was answered.
   Span statement;  // of a group: where it ends, and `command` is empty
@@ -66,17 +66,20 @@ struct AssertResult {
 struct RunOptions {
   Limits limits;
   std::function<void(const Step&)> on_step;  // null: steps are not told, and cost nothing
-  // Told the steps done, at every 65536th or so: what shows progress reads the clock itself. May be null.
+  // Told the steps done, at every 65536th or so: what shows progress reads the clock itself. May be
+  // null.
   std::function<void(std::uint64_t steps)> on_progress = {};
 };
 
 struct Outcome {
   model::State state;
-  Diagnostics diagnostics;  // an error among them: the run stopped there, and nothing is to be written
+  Diagnostics
+      diagnostics;  // an error among them: the run stopped there, and nothing is to be written
   std::vector<AssertResult> asserts;
   std::vector<model::OutputRequest> outputs;
   std::vector<Span> output_spans;  // of each of these: its file's name, or else the command
-  std::vector<std::pair<std::string, model::Value>> lets;  // of the top level, for tests and inspection
+  std::vector<std::pair<std::string, model::Value>>
+      lets;  // of the top level, for tests and inspection
   std::uint64_t steps = 0;
 };
 Outcome Run(const Program& program, const RunOptions& options, const Host& host);
@@ -93,6 +96,7 @@ ScriptResult RunScript(std::string path, std::string text, const BindOptions& bi
                        const RunOptions& run_options, const Host& host);
 
 // The same without running: what can be said of the text alone.
-ScriptResult CheckScript(std::string path, std::string text, const BindOptions& bind_options, const Host& host);
+ScriptResult CheckScript(std::string path, std::string text, const BindOptions& bind_options,
+                         const Host& host);
 
 }  // namespace tranos::interp

@@ -16,13 +16,16 @@ using model::ElementId;
 using model::ElementPtr;
 using model::Value;
 
-void Fail(Code code, Span span, std::string message, std::string label, std::string help, std::vector<Note> notes) {
-  throw RunFailure{{code, span, std::move(message), std::move(label), std::move(help), std::move(notes)}};
+void Fail(Code code, Span span, std::string message, std::string label, std::string help,
+          std::vector<Note> notes) {
+  throw RunFailure{
+      {code, span, std::move(message), std::move(label), std::move(help), std::move(notes)}};
 }
 
 void Budget::ChargeSteps(std::uint64_t count, Span span) {
   if (count > steps_left) {
-    Fail(Code::kStepLimit, span, "the limit of " + std::to_string(limits.steps) + " steps is reached", "",
+    Fail(Code::kStepLimit, span,
+         "the limit of " + std::to_string(limits.steps) + " steps is reached", "",
          "--limit steps=N raises it");
   }
   const std::uint64_t before = steps_left;
@@ -33,15 +36,17 @@ void Budget::ChargeSteps(std::uint64_t count, Span span) {
 void Budget::ChargeElements(std::uint64_t count, Span span) {
   elements_made += count;
   if (elements_made > limits.elements) {
-    Fail(Code::kElementLimit, span, "the limit of " + std::to_string(limits.elements) + " elements is reached", "",
+    Fail(Code::kElementLimit, span,
+         "the limit of " + std::to_string(limits.elements) + " elements is reached", "",
          "--limit elements=N raises it");
   }
 }
 
 void Budget::ChargeBytes(std::uint64_t bytes, Span span) const {
   if (bytes > limits.memory) {
-    Fail(Code::kMemoryLimit, span, "this would take more than the limit of " + std::to_string(limits.memory) + " bytes",
-         "", "--limit memory=N raises it");
+    Fail(Code::kMemoryLimit, span,
+         "this would take more than the limit of " + std::to_string(limits.memory) + " bytes", "",
+         "--limit memory=N raises it");
   }
 }
 
@@ -87,7 +92,8 @@ void Stage::Start(const Command* row, const Definition* definition, Span span) {
 }
 
 void Stage::Option(const std::string& word, Span span) {
-  if (!active_.row) Fail(Code::kNoCommand, span, "`" + Printable(word) + "` belongs to a command that has ended");
+  if (!active_.row)
+    Fail(Code::kNoCommand, span, "`" + Printable(word) + "` belongs to a command that has ended");
   active_.words.push_back(word);
   active_.word_spans.push_back(span);
   if (links_.options) Tell(word, span, nullptr, {});
@@ -96,7 +102,9 @@ void Stage::Option(const std::string& word, Span span) {
 // A bare string is the key that it stands for.
 void Stage::BareString(const std::string& text, Span span) {
   std::uint32_t key = 0;
-  while (active_.row && key < active_.row->keys.size() && active_.row->keys[key].name != active_.row->string_key) ++key;
+  while (active_.row && key < active_.row->keys.size() &&
+         active_.row->keys[key].name != active_.row->string_key)
+    ++key;
   Parameter(key, Value::String(text), span);
 }
 
@@ -118,8 +126,9 @@ void Stage::Parameter(std::uint32_t key, Value value, Span span) {
   const Key& declared = active_.row->keys[key];
   KeyAnswer& answer = active_.keys[key];
   if (answer.given && !answer.used) {
-    Fail(Code::kUnusedParameter, answer.span, "`" + std::string(declared.name) + "=` is given again before it is used",
-         "not used", "", {{span, "given again here"}});
+    Fail(Code::kUnusedParameter, answer.span,
+         "`" + std::string(declared.name) + "=` is given again before it is used", "not used", "",
+         {{span, "given again here"}});
   }
   if (declared.type == Type::kWord && !declared.words.empty() &&
       !(value.is_string() && HasWord(declared.words, value.string()))) {
@@ -130,7 +139,8 @@ void Stage::Parameter(std::uint32_t key, Value value, Span span) {
   answer = {std::move(value), span, true, false};
   // `of=` given anew is worked on, not what the firing before it left chosen.
   if (declared.name == "of" && declared.type == Type::kElements) active_.selected = false;
-  const bool asks_points = active_.row->manner == Manner::kPlaces || active_.row->manner == Manner::kTransforms;
+  const bool asks_points =
+      active_.row->manner == Manner::kPlaces || active_.row->manner == Manner::kTransforms;
   if (asks_points && declared.prompt >= 0 && PromptsAnswered() &&
       (active_.row->manner == Manner::kPlaces || ChosenCount() > 0)) {
     return Fire(span);
@@ -165,7 +175,8 @@ const Stage::KeyAnswer* Stage::FindOf() const {
   if (!active_.row) return nullptr;
   for (std::size_t i = 0; i < active_.keys.size(); ++i) {
     const Key& key = active_.row->keys[i];
-    if (active_.keys[i].given && key.name == "of" && key.type == Type::kElements) return &active_.keys[i];
+    if (active_.keys[i].given && key.name == "of" && key.type == Type::kElements)
+      return &active_.keys[i];
   }
   return nullptr;
 }
@@ -180,7 +191,8 @@ Vec3 Coordinates(const Value& values, std::size_t* given) {
   }
   Vec3 out = Vec3::Zero();
   *given = std::min<std::size_t>(values.list().size(), 3);
-  for (std::size_t i = 0; i < *given; ++i) out[static_cast<Eigen::Index>(i)] = values.list()[i].number();
+  for (std::size_t i = 0; i < *given; ++i)
+    out[static_cast<Eigen::Index>(i)] = values.list()[i].number();
   return out;
 }
 
@@ -188,7 +200,8 @@ std::string PointText(PointKey kind, const Value& values) {
   static constexpr std::string_view kKeys[] = {"xy", "ax", "dl", "di", "dx", "dot", "on"};
   std::string out = std::string(kKeys[static_cast<int>(kind)]) + "=";
   if (!values.is_list()) return out + KeyInText(values);
-  for (std::size_t i = 0; i < values.list().size(); ++i) out += (i ? "," : "") + KeyInText(values.list()[i]);
+  for (std::size_t i = 0; i < values.list().size(); ++i)
+    out += (i ? "," : "") + KeyInText(values.list()[i]);
   return out;
 }
 
@@ -203,9 +216,12 @@ void Stage::Point(PointKey kind, const Value& values, Span span) {
   const Vec3& last = drawing.last_point;
   if (links_.options) key_in_ = PointText(kind, values);
   switch (kind) {
-    case PointKey::kXy: return TakePoint({v.x(), v.y(), z}, span);
-    case PointKey::kAx: return TakePoint(plane.ToWorld({v.x(), v.y(), z}), span);
-    case PointKey::kDl: return TakePoint(last + plane.ToWorld(v) - plane.origin, span);
+    case PointKey::kXy:
+      return TakePoint({v.x(), v.y(), z}, span);
+    case PointKey::kAx:
+      return TakePoint(plane.ToWorld({v.x(), v.y(), z}), span);
+    case PointKey::kDl:
+      return TakePoint(last + plane.ToWorld(v) - plane.origin, span);
     case PointKey::kDi: {
       const Vec3 local = Rotation(Vec3::Zero(), Vec3::UnitZ(), v.y()) * Vec3(v.x(), 0, 0);
       return TakePoint(last + plane.ToWorld(local) - plane.origin, span);
@@ -216,15 +232,17 @@ void Stage::Point(PointKey kind, const Value& values, Span span) {
       return TakePoint(last + view.ToWorld(v) - view.origin, span);
     }
     case PointKey::kDot:
-    case PointKey::kOn: break;  // a dot is not bound; `on=` comes through On
+    case PointKey::kOn:
+      break;  // a dot is not bound; `on=` comes through On
   }
 }
 
 void Stage::On(const model::Interface& interface, Span span) {
   if (!active_.row) Fail(Code::kNoCommand, span, "there is no active command to take this place");
   if (!active_.definition) {
-    Fail(Code::kUnknownKey, span, "`on=` places defined elements; `" + std::string(active_.row->words) + "` is none",
-         "", "give the point: xy=…");
+    Fail(Code::kUnknownKey, span,
+         "`on=` places defined elements; `" + std::string(active_.row->words) + "` is none", "",
+         "give the point: xy=…");
   }
   active_.frame = interface.frame;
   active_.has_frame = true;
@@ -245,13 +263,17 @@ void Stage::TakePoint(const Vec3& point, Span span) {
   state_.drawing.last_point = point;
   switch (active_.row->manner) {
     case Manner::kImmediate:
-      Fail(Code::kNoCommand, span, "`" + std::string(active_.row->words) + "` asks for no data point");
+      Fail(Code::kNoCommand, span,
+           "`" + std::string(active_.row->words) + "` asks for no data point");
     case Manner::kPlaces:
-    case Manner::kTransforms: AnswerPrompt(point, span); break;
+    case Manner::kTransforms:
+      AnswerPrompt(point, span);
+      break;
     case Manner::kGathers:
       if (static_cast<int>(active_.points.size()) >= active_.row->most) {
-        Fail(Code::kWrongCount, span, "`" + std::string(active_.row->words) + "` takes at most " +
-                                          std::to_string(active_.row->most) + " points");
+        Fail(Code::kWrongCount, span,
+             "`" + std::string(active_.row->words) + "` takes at most " +
+                 std::to_string(active_.row->most) + " points");
       }
       active_.points.push_back(point);
       active_.point_spans.push_back(span);
@@ -264,7 +286,9 @@ void Stage::TakePoint(const Vec3& point, Span span) {
       Fire(span);
       break;
     case Manner::kPicks:
-    case Manner::kEdits: PickOrAccept(point, span); break;
+    case Manner::kEdits:
+      PickOrAccept(point, span);
+      break;
   }
   if (links_.options && !key_in_.empty()) Tell(std::exchange(key_in_, {}), span, nullptr, {});
 }
@@ -290,13 +314,15 @@ void Stage::Set(const SettingRow& row, const Value& value, Span span) {
     settings->attributes = std::move(copy);
   };
   const auto positive = [&](double number) {
-    if (!(number > 0)) Fail(Code::kOutOfRange, span, "`" + std::string(row.key) + "` is above zero");
+    if (!(number > 0))
+      Fail(Code::kOutOfRange, span, "`" + std::string(row.key) + "` is above zero");
     return number;
   };
   const auto count = [&](int most) {
     const double number = value.number();
     if (number > most) {
-      Fail(Code::kOutOfRange, span, "`" + std::string(row.key) + "` is at most " + std::to_string(most));
+      Fail(Code::kOutOfRange, span,
+           "`" + std::string(row.key) + "` is at most " + std::to_string(most));
     }
     return static_cast<int>(number);
   };
@@ -305,17 +331,26 @@ void Stage::Set(const SettingRow& row, const Value& value, Span span) {
     case SettingKey::kColour: {
       std::uint32_t code = 0;
       if (value.is_string()) {
-        code = model::Colour::kRgb | static_cast<std::uint32_t>(std::stoul(value.string().substr(1), nullptr, 16));
+        code = model::Colour::kRgb |
+               static_cast<std::uint32_t>(std::stoul(value.string().substr(1), nullptr, 16));
       } else {
         code = static_cast<std::uint32_t>(value.number());
       }
       attributes(Attributes::kColour, [&](Attributes& a) { a.colour = {code}; });
       break;
     }
-    case SettingKey::kLinestyle: attributes(Attributes::kLinestyle, [&](Attributes& a) { a.linestyle = count(7); }); break;
-    case SettingKey::kWeight: attributes(Attributes::kWeight, [&](Attributes& a) { a.weight = count(31); }); break;
-    case SettingKey::kLevel: attributes(Attributes::kLevel, [&](Attributes& a) { a.level = value.string(); }); break;
-    case SettingKey::kMaterial: attributes(Attributes::kMaterial, [&](Attributes& a) { a.material = value.string(); }); break;
+    case SettingKey::kLinestyle:
+      attributes(Attributes::kLinestyle, [&](Attributes& a) { a.linestyle = count(7); });
+      break;
+    case SettingKey::kWeight:
+      attributes(Attributes::kWeight, [&](Attributes& a) { a.weight = count(31); });
+      break;
+    case SettingKey::kLevel:
+      attributes(Attributes::kLevel, [&](Attributes& a) { a.level = value.string(); });
+      break;
+    case SettingKey::kMaterial:
+      attributes(Attributes::kMaterial, [&](Attributes& a) { a.material = value.string(); });
+      break;
     case SettingKey::kEvidence: {
       const auto evidence = model::EvidenceOf(value.string());
       if (!evidence) {
@@ -325,23 +360,42 @@ void Stage::Set(const SettingRow& row, const Value& value, Span span) {
       attributes(Attributes::kEvidence, [&](Attributes& a) { a.evidence = *evidence; });
       break;
     }
-    case SettingKey::kSource: attributes(Attributes::kEvidence, [&](Attributes& a) { a.source = value.string(); }); break;
-    case SettingKey::kAngle: settings->angle_rad = value.number(); break;
+    case SettingKey::kSource:
+      attributes(Attributes::kEvidence, [&](Attributes& a) { a.source = value.string(); });
+      break;
+    case SettingKey::kAngle:
+      settings->angle_rad = value.number();
+      break;
     case SettingKey::kScale: {
       std::size_t given = 0;
       settings->scale = Coordinates(value, &given);
       break;
     }
-    case SettingKey::kDepth: settings->depth_m = value.number(); break;
-    case SettingKey::kChord: settings->tolerance.chord_m = positive(value.number()); break;
-    case SettingKey::kFacets: settings->tolerance.facets_per_turn = count(100'000); break;
-    case SettingKey::kLocate: settings->locate_tolerance_m = positive(value.number()); break;
-    case SettingKey::kUnit: settings->unit = value.string(); break;
-    case SettingKey::kNoise: settings->noise_px = positive(value.number()); break;
+    case SettingKey::kDepth:
+      settings->depth_m = value.number();
+      break;
+    case SettingKey::kChord:
+      settings->tolerance.chord_m = positive(value.number());
+      break;
+    case SettingKey::kFacets:
+      settings->tolerance.facets_per_turn = count(100'000);
+      break;
+    case SettingKey::kLocate:
+      settings->locate_tolerance_m = positive(value.number());
+      break;
+    case SettingKey::kUnit:
+      settings->unit = value.string();
+      break;
+    case SettingKey::kNoise:
+      settings->noise_px = positive(value.number());
+      break;
   }
   links_.budget->ChargeSteps(1, span);
   state_.drawing.settings = std::move(settings);
-  if (links_.options) Tell(std::string(row.key) + "=" + (row.setting == SettingKey::kUnit ? value.string() : KeyInText(value)), span, nullptr, {});
+  if (links_.options)
+    Tell(std::string(row.key) + "=" +
+             (row.setting == SettingKey::kUnit ? value.string() : KeyInText(value)),
+         span, nullptr, {});
 }
 
 void Stage::Reset(Span span) {
@@ -373,7 +427,8 @@ void Stage::GroupBegin(std::uint32_t scope, Span span) {
   End(span, false);
   undone_.clear();  // redo does not reach into a group, nor out of it
   TakeIds();
-  groups_.push_back({scope, state_.drawing.names, history_.size(), state_.model.entries.size(), state_});
+  groups_.push_back(
+      {scope, state_.drawing.names, history_.size(), state_.model.entries.size(), state_});
   state_.drawing.names = {};
   BlockBegin(true);
   if (links_.options) Tell("group {", span, nullptr, {});
@@ -409,8 +464,8 @@ void Stage::GroupEnd(Span span) {
   // A group hands none of its own settings on to its members.
   auto attributes = std::make_shared<model::Attributes>(*state_.drawing.settings->attributes);
   attributes->own = 0;
-  edit.added.push_back(model::WithAttributes(*NewElement(state_, model::MakeGroup({})),
-                                             std::move(attributes)));
+  edit.added.push_back(
+      model::WithAttributes(*NewElement(state_, model::MakeGroup({})), std::move(attributes)));
   edit.added.back() = model::WithGeometry(*edit.added.back(), model::MakeGroup(std::move(group)));
   edit.selection = state_.drawing.selection;
   links_.budget->ChargeElements(1, span);
@@ -427,14 +482,16 @@ std::vector<model::NamedElements> Stage::NamesOf(std::uint32_t scope) const {
     if (!binding.given) continue;
     model::NamedElements named{names[i], {}, binding.ids.size() != 1};
     binding.ids.ForEach([&](ElementId id) {
-      if (ElementPtr element = state_.model.Current(id)) named.elements.push_back(std::move(element));
+      if (ElementPtr element = state_.model.Current(id))
+        named.elements.push_back(std::move(element));
     });
     out.push_back(std::move(named));
   }
   return out;
 }
 
-void Stage::Name(const std::string& name, std::uint32_t index, bool in_turn, std::size_t from, Span span) {
+void Stage::Name(const std::string& name, std::uint32_t index, bool in_turn, std::size_t from,
+                 Span span) {
   links_.budget->ChargeSteps(1, span);
   End(span, false);
   std::vector<ElementId> made;
@@ -448,11 +505,12 @@ void Stage::Name(const std::string& name, std::uint32_t index, bool in_turn, std
   }
   const model::NameBinding& binding = state_.drawing.names[index];
   if (in_turn ? binding.ids.size() > from : binding.given) {
-    Fail(Code::kBoundTwice, span, "`" + Printable(name) + "` names something already", "named again here",
-         "choose another name; in a loop a name may be given once a turn");
+    Fail(Code::kBoundTwice, span, "`" + Printable(name) + "` names something already",
+         "named again here", "choose another name; in a loop a name may be given once a turn");
   }
   model::Edit edit;
-  for (ElementId id : made) edit.replaced.push_back(model::WithName(*state_.model.Current(id), name));
+  for (ElementId id : made)
+    edit.replaced.push_back(model::WithName(*state_.model.Current(id), name));
   const model::Selection last = state_.drawing.last;
   model::Applied applied = model::Apply(std::move(state_), edit);
   state_ = std::move(applied.state);

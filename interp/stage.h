@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How a command runs (docs/language.md, "How a command runs"): the state, the active command with its answers, and
-// the history that undo walks. A script has one stage; so has each body of a definition while it is
-// built.
+// How a command runs (docs/language.md, "How a command runs"): the state, the active command with
+// its answers, and the history that undo walks. A script has one stage; so has each body of a
+// definition while it is built.
 #pragma once
 
 #include <cstdint>
@@ -61,7 +61,8 @@ struct StageLinks {
 
 class Stage {
  public:
-  // At the top of a script all settings are an element's own; in a definition's body those that the body sets.
+  // At the top of a script all settings are an element's own; in a definition's body those that the
+  // body sets.
   Stage(StageLinks links, bool owns_settings);
 
   void Start(const Command* row, const Definition* definition, Span span);

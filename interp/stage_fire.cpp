@@ -21,8 +21,9 @@ constexpr std::string_view kChooseHelp =
     "choose first: `choose element;xy=…`, `choose all`; or give it: `of=NAME`";
 
 bool TakesChosen(const Command& row) {
-  return std::any_of(row.keys.begin(), row.keys.end(),
-                     [](const Key& key) { return key.name == "of" && key.type == Type::kElements; });
+  return std::any_of(row.keys.begin(), row.keys.end(), [](const Key& key) {
+    return key.name == "of" && key.type == Type::kElements;
+  });
 }
 
 }  // namespace
@@ -30,7 +31,8 @@ bool TakesChosen(const Command& row) {
 Span Stage::SpanOf(const Where& where) const {
   const auto index = static_cast<std::size_t>(std::max(where.index, 0));
   switch (where.kind) {
-    case Where::kCommand: break;
+    case Where::kCommand:
+      break;
     case Where::kKey:
       if (const KeyAnswer* key = FindKey(where.key)) return key->span;
       break;
@@ -53,7 +55,8 @@ void Stage::AddChosen(const ElementPtr& element, Span span, ChosenOnce* out) con
   if (element->id < model.entries.size()) {
     const model::Standing standing = model.entries[element->id].standing;
     const std::string name = element->name ? "`" + Printable(*element->name) + "`" : "the element";
-    if (standing == model::Standing::kDeleted) Fail(Code::kNoLongerThere, span, name + " was deleted");
+    if (standing == model::Standing::kDeleted)
+      Fail(Code::kNoLongerThere, span, name + " was deleted");
     const ElementPtr current = model.Current(element->id);
     if (out->ids.insert(element->id).second) out->elements.push_back(current);
     return;
@@ -66,7 +69,8 @@ void Stage::AddChosen(const ElementPtr& element, Span span, ChosenOnce* out) con
 const Stage::KeyAnswer* Stage::FindWorkingOf() const {
   const KeyAnswer* of = FindOf();
   if (!of || active_.selected) return nullptr;
-  const bool picking = active_.row->manner == Manner::kPicks || active_.row->manner == Manner::kEdits;
+  const bool picking =
+      active_.row->manner == Manner::kPicks || active_.row->manner == Manner::kEdits;
   return picking && of->used ? nullptr : of;
 }
 
@@ -76,7 +80,8 @@ std::vector<ElementPtr> Stage::Chosen(Span span) const {
     for (const Value& item : of->value.list()) AddChosen(item.element(), of->span, &out);
     return std::move(out.elements);
   }
-  const bool picking = active_.row->manner == Manner::kPicks || active_.row->manner == Manner::kEdits;
+  const bool picking =
+      active_.row->manner == Manner::kPicks || active_.row->manner == Manner::kEdits;
   // What was chosen before is used by a picking command's first firing alone.
   if (!picking || active_.firings == 0) {
     for (ElementId id : state_.drawing.selection) AddChosen(state_.model.Current(id), span, &out);
@@ -87,7 +92,8 @@ std::vector<ElementPtr> Stage::Chosen(Span span) const {
 
 std::size_t Stage::ChosenCount() const {
   if (const KeyAnswer* of = FindWorkingOf()) return of->value.list().size();
-  const bool picking = active_.row->manner == Manner::kPicks || active_.row->manner == Manner::kEdits;
+  const bool picking =
+      active_.row->manner == Manner::kPicks || active_.row->manner == Manner::kEdits;
   std::size_t count = active_.picks.size();
   if (!picking || active_.firings == 0) count += state_.drawing.selection.size();
   return count;
@@ -102,7 +108,8 @@ void Stage::PickOrAccept(const Vec3& point, Span span) {
     return Fire(span);
   }
   if (pick.ambiguous) {
-    links_.diagnostics->Add({Code::kAmbiguousPick, span, "several elements are equally near", "the one made last is picked",
+    links_.diagnostics->Add({Code::kAmbiguousPick, span, "several elements are equally near",
+                             "the one made last is picked",
                              "pick at another place, or give `of=NAME`"});
   }
   const ElementId id = pick.element->id;
@@ -121,7 +128,8 @@ Answers Stage::MakeAnswers(Span span) const {
   if (TakesChosen(*active_.row)) answers.chosen = Chosen(span);
   answers.words = active_.words;
   for (std::size_t i = 0; i < active_.keys.size(); ++i) {
-    if (active_.keys[i].given) answers.keys.emplace_back(active_.row->keys[i].name, active_.keys[i].value);
+    if (active_.keys[i].given)
+      answers.keys.emplace_back(active_.row->keys[i].name, active_.keys[i].value);
   }
   answers.first = active_.firings == 0;
   return answers;
@@ -131,13 +139,15 @@ void Stage::CheckRequired(Span span) const {
   for (std::size_t i = 0; i < active_.keys.size(); ++i) {
     const Key& key = active_.row->keys[i];
     if (!key.required || active_.keys[i].given) continue;
-    const bool measured = std::any_of(active_.measures.begin(), active_.measures.end(),
-                                      [&](const auto& measure) { return measure.first == key.name; });
+    const bool measured =
+        std::any_of(active_.measures.begin(), active_.measures.end(),
+                    [&](const auto& measure) { return measure.first == key.name; });
     if (measured) continue;
     Fail(Code::kMissingValue, active_.span,
          "`" + std::string(active_.row->words) + "` needs `" + std::string(key.name) + "=`",
          std::string(key.summary), "tranos help " + std::string(active_.row->words),
-         span.begin == active_.span.begin ? std::vector<Note>{} : std::vector<Note>{{span, "it would fire here"}});
+         span.begin == active_.span.begin ? std::vector<Note>{}
+                                          : std::vector<Note>{{span, "it would fire here"}});
   }
 }
 
@@ -149,13 +159,15 @@ void Stage::GuardChanges(model::Edit* edit) const {
     const Span at = of ? of->span : active_.span;
     const std::string verb = "`" + std::string(active_.row->words) + "`";
     if (id >= entries.size()) {
-      Fail(Code::kWrongElement, at, verb + " cannot change a part of a placed element by itself", "",
-           "`drop` the placed element first, or `copy` the part");
+      Fail(Code::kWrongElement, at, verb + " cannot change a part of a placed element by itself",
+           "", "`drop` the placed element first, or `copy` the part");
     }
     const model::Entry& entry = entries[id];
     if (entry.standing != model::Standing::kConsumed) return;
-    const std::string name = entry.element->name ? "`" + Printable(*entry.element->name) + "`" : "the element";
-    Fail(Code::kNoLongerThere, at, name + " was made into something else, so " + verb + " cannot change it", "",
+    const std::string name =
+        entry.element->name ? "`" + Printable(*entry.element->name) + "`" : "the element";
+    Fail(Code::kNoLongerThere, at,
+         name + " was made into something else, so " + verb + " cannot change it", "",
          "`copy` takes its geometry, `keep=true` would have left it in the model");
   };
   for (const ElementPtr& element : edit->replaced) guard(element->id);
@@ -170,19 +182,20 @@ void Stage::Fire(Span span) {
   if (active_.definition) return FirePlacement(span);
   const Answers answers = MakeAnswers(span);
   if (row.manner == Manner::kTransforms && answers.chosen.empty()) {
-    Fail(Code::kNothingChosen, active_.span, "nothing is chosen for `" + std::string(row.words) + "`", "",
-         std::string(kChooseHelp));
+    Fail(Code::kNothingChosen, active_.span,
+         "nothing is chosen for `" + std::string(row.words) + "`", "", std::string(kChooseHelp));
   }
   CommandResult result = row.execute(state_, answers);
   if (!result) throw RunFailure{MakeDiagnostic(result.error())};
   GuardChanges(&result->edit);
-  for (const CommandError& warning : result->warnings) links_.diagnostics->Add(MakeDiagnostic(warning));
+  for (const CommandError& warning : result->warnings)
+    links_.diagnostics->Add(MakeDiagnostic(warning));
   for (const std::string& line : result->messages) {
     if (links_.host->print) links_.host->print(line);
   }
   if (!links_.outputs && !result->edit.outputs.empty()) {
-    Fail(Code::kMisplaced, active_.span, "a definition's body draws no picture and writes no file", "",
-         "`" + std::string(active_.row->words) + "` stands in the script");
+    Fail(Code::kMisplaced, active_.span, "a definition's body draws no picture and writes no file",
+         "", "`" + std::string(active_.row->words) + "` stands in the script");
   }
   if (links_.outputs) {
     const Span named = SpanOf({Where::kKey, 0, "file"});
@@ -200,7 +213,8 @@ void Stage::Fire(Span span) {
 
 void Stage::FirePlacement(Span span) {
   if (const auto error = TooFar(MakeAnswers(span))) throw RunFailure{MakeDiagnostic(*error)};
-  Placement placement{active_.definition, {}, {}, geom::Affine::Identity(), active_.span, active_.measures};
+  Placement placement{active_.definition,       {},           {},
+                      geom::Affine::Identity(), active_.span, active_.measures};
   for (std::size_t i = 0; i < active_.keys.size(); ++i) {
     placement.arguments.push_back(active_.keys[i].value);
     placement.argument_spans.push_back(active_.keys[i].given ? active_.keys[i].span : active_.span);
@@ -227,7 +241,8 @@ void Stage::CheckNear(const model::Element& placed, Span span) const {
   if (box.empty()) return;
   const double farthest_m = std::max(box.min.cwiseAbs().maxCoeff(), box.max.cwiseAbs().maxCoeff());
   if (farthest_m <= kFarthest_m) return;
-  Fail(Code::kOutOfRange, span, "the placed element reaches more than a million kilometres away", "at most 1e9 m");
+  Fail(Code::kOutOfRange, span, "the placed element reaches more than a million kilometres away",
+       "at most 1e9 m");
 }
 
 // Groups and placed elements are walked by recursion, so that they may not nest without bound.
@@ -235,19 +250,21 @@ void Stage::CheckDepth(const model::Edit& edit, Span span) const {
   const int most = links_.budget->limits.depth;
   for (const ElementPtr& element : edit.added) {
     if (model::DepthOf(*element) <= most) continue;
-    Fail(Code::kDepthLimit, span, "elements are nested more than " + std::to_string(most) + " deep", "",
-         "--limit depth=N raises the limit");
+    Fail(Code::kDepthLimit, span, "elements are nested more than " + std::to_string(most) + " deep",
+         "", "--limit depth=N raises the limit");
   }
 }
 
-// A group that changes what stood before it is told of: the names around it then mean something else.
+// A group that changes what stood before it is told of: the names around it then mean something
+// else.
 void Stage::NoteOutside(const model::Edit& edit) {
   if (groups_.empty()) return;
   const std::size_t first = groups_.back().first_id;
   const auto outside = [&](ElementId id) { return id < first; };
   const auto element_outside = [&](const ElementPtr& element) { return outside(element->id); };
   groups_.back().touches_outside =
-      groups_.back().touches_outside || std::any_of(edit.replaced.begin(), edit.replaced.end(), element_outside) ||
+      groups_.back().touches_outside ||
+      std::any_of(edit.replaced.begin(), edit.replaced.end(), element_outside) ||
       std::any_of(edit.released.begin(), edit.released.end(), element_outside) ||
       std::any_of(edit.consumed.begin(), edit.consumed.end(), outside) ||
       std::any_of(edit.deleted.begin(), edit.deleted.end(), outside) ||
@@ -289,7 +306,8 @@ void Stage::AskAgain() {
     active_.points[0] = active_.points.back();
     active_.point_spans[0] = active_.point_spans.back();
   }
-  for (std::size_t i = static_cast<std::size_t>(row.again); i < active_.answered.size(); ++i) active_.answered[i] = false;
+  for (std::size_t i = static_cast<std::size_t>(row.again); i < active_.answered.size(); ++i)
+    active_.answered[i] = false;
 }
 
 // Without questions it has all it needs; with them only if keys answered them all.
@@ -302,13 +320,17 @@ void Stage::EndStatement(Span span) {
     // `of=` given later fires at the end of the statement it stands in.
     if (!active_.row) return;
     const KeyAnswer* of = FindOf();
-    if (of && !of->used && (active_.row->manner == Manner::kPicks || active_.row->manner == Manner::kEdits)) Fire(span);
+    if (of && !of->used &&
+        (active_.row->manner == Manner::kPicks || active_.row->manner == Manner::kEdits))
+      Fire(span);
     return;
   }
   active_.own_statement = false;
   const KeyAnswer* of = FindOf();
   switch (active_.row->manner) {
-    case Manner::kImmediate: End(span, false); break;
+    case Manner::kImmediate:
+      End(span, false);
+      break;
     case Manner::kPicks:
       if (of && !of->used) Fire(span);
       break;
@@ -318,7 +340,8 @@ void Stage::EndStatement(Span span) {
     case Manner::kTransforms:
       if (TransformIsAnswered()) Fire(span);
       break;
-    default: break;
+    default:
+      break;
   }
 }
 
@@ -327,33 +350,37 @@ void Stage::TooFew(Span span) const {
   if (row.manner == Manner::kPicks || row.manner == Manner::kEdits) {
     const std::size_t count = ChosenCount();
     if (count == 0) {
-      Fail(Code::kNothingChosen, active_.span, "nothing is chosen for `" + std::string(row.words) + "`", "",
+      Fail(Code::kNothingChosen, active_.span,
+           "nothing is chosen for `" + std::string(row.words) + "`", "",
            std::string(kChooseHelp) + "; or pick with data points");
     }
     Fail(Code::kTooFewPoints, active_.span,
-         "`" + std::string(row.words) + "` needs " + std::to_string(row.least) + " elements, and has " +
-             std::to_string(count),
+         "`" + std::string(row.words) + "` needs " + std::to_string(row.least) +
+             " elements, and has " + std::to_string(count),
          "", "", {{span, "it ends here"}});
   }
   std::string asked;
   if (row.manner == Manner::kGathers) {
-    asked = "at least " + std::to_string(row.least) + " points, and has " + std::to_string(active_.points.size());
+    asked = "at least " + std::to_string(row.least) + " points, and has " +
+            std::to_string(active_.points.size());
   } else {
     for (std::size_t i = 0; i < row.prompts.size() && asked.empty(); ++i) {
-      if (!active_.answered[i] && !KeyAnswers(static_cast<int>(i))) asked = "a point: " + std::string(row.prompts[i].name);
+      if (!active_.answered[i] && !KeyAnswers(static_cast<int>(i)))
+        asked = "a point: " + std::string(row.prompts[i].name);
     }
   }
   if (asked.empty()) asked = "a data point";
   Fail(Code::kTooFewPoints, active_.span, "`" + std::string(row.words) + "` asks for " + asked, "",
-       "give it a data point such as xy=0,0,0, or drop the question with `reset`", {{span, "it ends here"}});
+       "give it a data point such as xy=0,0,0, or drop the question with `reset`",
+       {{span, "it ends here"}});
 }
 
 void Stage::CheckUnused() const {
   for (std::size_t i = 0; i < active_.keys.size(); ++i) {
     if (!active_.keys[i].given || active_.keys[i].used) continue;
     const std::string name(active_.row->keys[i].name);
-    Fail(Code::kUnusedParameter, active_.keys[i].span, "nothing was made with `" + name + "=`", "not used",
-         "write `" + name + "=` before the point");
+    Fail(Code::kUnusedParameter, active_.keys[i].span, "nothing was made with `" + name + "=`",
+         "not used", "write `" + name + "=` before the point");
   }
 }
 
@@ -380,12 +407,15 @@ void Stage::End(Span span, bool is_reset) {
       }
       break;
     case Manner::kPicks:
-    case Manner::kEdits: EndPicking(is_reset, span); break;
+    case Manner::kEdits:
+      EndPicking(is_reset, span);
+      break;
     default:
       if (row.manner == Manner::kTransforms && TransformIsAnswered()) Fire(span);
       if (!is_reset && (active_.begun > 0 || active_.firings == 0)) {
         if (row.manner == Manner::kTransforms && ChosenCount() == 0) {
-          Fail(Code::kNothingChosen, active_.span, "nothing is chosen for `" + std::string(row.words) + "`", "",
+          Fail(Code::kNothingChosen, active_.span,
+               "nothing is chosen for `" + std::string(row.words) + "`", "",
                std::string(kChooseHelp));
         }
         TooFew(span);
@@ -421,8 +451,8 @@ void Stage::RestoreModel(const model::State& earlier) {
   state_.drawing.selection = earlier.drawing.selection;
 }
 
-// The ids of elements that were undone stay taken. To be called before the state becomes history, so that an
-// undo does not lose what was filled in.
+// The ids of elements that were undone stay taken. To be called before the state becomes history,
+// so that an undo does not lose what was filled in.
 void Stage::TakeIds() {
   while (state_.model.entries.size() < ids_given_) {
     state_.model.entries.Append({nullptr, model::Standing::kDeleted});
@@ -461,7 +491,8 @@ void Stage::Redo(Span span) {
   undone_.pop_back();
 }
 
-void Stage::Tell(std::string key_in, Span span, const model::Edit* edit, const std::vector<ElementId>& ids) {
+void Stage::Tell(std::string key_in, Span span, const model::Edit* edit,
+                 const std::vector<ElementId>& ids) {
   if (!links_.options || !links_.options->on_step) return;
   Step step;
   step.key_in = std::move(key_in);
@@ -480,11 +511,14 @@ void Stage::Tell(std::string key_in, Span span, const model::Edit* edit, const s
       for (std::size_t i = 0; i < active_.points.size(); ++i) {
         const bool gathers = active_.row->manner == Manner::kGathers;
         if (!gathers && i < active_.answered.size() && !active_.answered[i]) continue;
-        step.answers.emplace_back(gathers || i >= active_.row->prompts.size() ? "point" : std::string(active_.row->prompts[i].name),
+        step.answers.emplace_back(gathers || i >= active_.row->prompts.size()
+                                      ? "point"
+                                      : std::string(active_.row->prompts[i].name),
                                   Value::OfPoint(active_.points[i]));
       }
       for (std::size_t i = 0; i < active_.keys.size(); ++i) {
-        if (active_.keys[i].given) step.answers.emplace_back(active_.row->keys[i].name, active_.keys[i].value);
+        if (active_.keys[i].given)
+          step.answers.emplace_back(active_.row->keys[i].name, active_.keys[i].value);
       }
     }
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The syntax tree: complete (with its comments it prints back), flat and small. A node is twenty bytes
-// in one vector; children are linked by index, so that a script of 100 000 lines stays light.
+// The syntax tree: complete (with its comments it prints back), flat and small. A node is twenty
+// bytes in one vector; children are linked by index, so that a script of 100 000 lines stays light.
 #pragma once
 
 #include <cstdint>
@@ -69,8 +69,26 @@ enum class NodeKind : std::uint8_t {
 };
 
 enum class Operator : std::uint8_t {
-  kOr, kAnd, kNot, kEqual, kNotEqual, kLess, kLessEqual, kGreater, kGreaterEqual, kWithin,
-  kConsistent, kRange, kPlusMinus, kAdd, kSubtract, kMultiply, kDivide, kModulo, kNegate, kPower,
+  kOr,
+  kAnd,
+  kNot,
+  kEqual,
+  kNotEqual,
+  kLess,
+  kLessEqual,
+  kGreater,
+  kGreaterEqual,
+  kWithin,
+  kConsistent,
+  kRange,
+  kPlusMinus,
+  kAdd,
+  kSubtract,
+  kMultiply,
+  kDivide,
+  kModulo,
+  kNegate,
+  kPower,
 };
 
 struct Node {

@@ -13,7 +13,7 @@ namespace tranos::interp {
 enum class Type : std::uint8_t {
   kAny,
   kNumber,
-  kCount,    // a whole number, not negative
+  kCount,  // a whole number, not negative
   kLength,
   kArea,
   kVolume,
@@ -21,17 +21,17 @@ enum class Type : std::uint8_t {
   kPixel,
   kBoolean,
   kString,
-  kColor,    // 0–255 or "#rrggbb"
-  kPoint,    // a list of two or three lengths
+  kColor,  // 0–255 or "#rrggbb"
+  kPoint,  // a list of two or three lengths
   kElement,
   kRange,
   kPlane,
-  kWord,     // one of a closed list
-  kLabel,    // a level or material: a string or a number
-  kScale,    // one or three plain numbers
-  kElements, // an element or a list of them
-  kPoints,   // a list of points
-  kSize,     // two counts, in pixels
+  kWord,      // one of a closed list
+  kLabel,     // a level or material: a string or a number
+  kScale,     // one or three plain numbers
+  kElements,  // an element or a list of them
+  kPoints,    // a list of points
+  kSize,      // two counts, in pixels
 };
 
 // "a length", "a count", … for messages.

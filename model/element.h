@@ -113,8 +113,8 @@ struct Prototype {
   int depth = 1;                                          // as a group's
 };
 using PrototypePtr = std::shared_ptr<const Prototype>;
-// The prototype with its depth counted and its hash computed: over words, parts in their order and which settings they
-// own.
+// The prototype with its depth counted and its hash computed: over words, parts in their order and
+// which settings they own.
 PrototypePtr MakePrototype(Prototype prototype);
 
 struct Instance {

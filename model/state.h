@@ -36,7 +36,8 @@ struct Model {
   bool LevelIsOn(const std::string& level) const;
 };
 
-// The settings (docs/language.md, "Settings") and the active plane; immutable, shared until one is set.
+// The settings (docs/language.md, "Settings") and the active plane; immutable, shared until one is
+// set.
 struct Settings {
   AttributesPtr attributes = std::make_shared<const Attributes>();
   double angle_rad = 0;                   // aa

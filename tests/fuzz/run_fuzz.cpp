@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Any bytes, run as a script within small limits: no crash, no leak, no endless work; and a script that runs has
-// the same effect when it is formatted and run again.
+// Any bytes, run as a script within small limits: no crash, no leak, no endless work; and a script
+// that runs has the same effect when it is formatted and run again.
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
@@ -20,7 +20,8 @@ ScriptResult RunBounded(std::string text) {
   limits.memory = 1'000'000;
   limits.depth = 40;
   // One file can be used: an empty one, whatever it is called.
-  const Host host{[](std::string_view) -> tl::expected<std::string, HostError> { return std::string(); }, {}};
+  const Host host{
+      [](std::string_view) -> tl::expected<std::string, HostError> { return std::string(); }, {}};
   return RunScript("fuzz.trn", std::move(text), {{}, {}, limits.depth}, {limits, {}}, host);
 }
 
@@ -34,6 +35,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   Diagnostics diagnostics;
   const SyntaxTree tree = Parse(*first.sources, 0, {40}, &diagnostics);
   const ScriptResult second = RunBounded(Format(first.sources->files[0], tree));
-  if (second.diagnostics.has_errors() || second.outcome.state.model.hash != first.outcome.state.model.hash) std::abort();
+  if (second.diagnostics.has_errors() ||
+      second.outcome.state.model.hash != first.outcome.state.model.hash)
+    std::abort();
   return 0;
 }

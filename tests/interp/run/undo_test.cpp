@@ -29,20 +29,23 @@ model::Hash128 HashAfter(const std::string& text) {
 
 // Statements that change the model in one firing each.
 rc::Gen<std::string> Step() {
-  const auto coordinate = rc::gen::map(rc::gen::inRange(-50, 50), [](int n) { return std::to_string(n); });
-  const auto point = rc::gen::map(rc::gen::tuple(coordinate, coordinate, coordinate), [](const auto& p) {
-    return std::get<0>(p) + "," + std::get<1>(p) + "," + std::get<2>(p);
-  });
+  const auto coordinate =
+      rc::gen::map(rc::gen::inRange(-50, 50), [](int n) { return std::to_string(n); });
+  const auto point = rc::gen::map(
+      rc::gen::tuple(coordinate, coordinate, coordinate),
+      [](const auto& p) { return std::get<0>(p) + "," + std::get<1>(p) + "," + std::get<2>(p); });
   const auto with = [](std::string before, std::string after) {
     return [before, after](const std::string& p) { return before + p + after; };
   };
   return rc::gen::oneOf(
-      rc::gen::map(point, with("place point xy=", "")), rc::gen::map(point, with("place line xy=", " dl=3,4")),
+      rc::gen::map(point, with("place point xy=", "")),
+      rc::gen::map(point, with("place line xy=", " dl=3,4")),
       rc::gen::map(point, with("place circle center az=0 radius=2 xy=", "; undo; redo")),
       rc::gen::map(point, with("group { place point xy=", "; place line xy=0,0 dl=5 as beam }")),
       rc::gen::map(point, with("choose all; copy xy=0,0,0 xy=", "")),
       rc::gen::map(point, with("choose last; move xy=0,0,0 xy=", "")),
-      rc::gen::map(point, with("choose all; rotate copy xy=", "")), rc::gen::just<std::string>("choose last; scale as=2 xy=0,0"),
+      rc::gen::map(point, with("choose all; rotate copy xy=", "")),
+      rc::gen::just<std::string>("choose last; scale as=2 xy=0,0"),
       rc::gen::just<std::string>("co=3; choose all; modify"));
 }
 
