@@ -14,6 +14,12 @@
 
 namespace tranos::interp {
 
+// An operand's value: a register, or a constant of the unit.
+inline const model::Value& Get(Operand operand, const model::Value* registers,
+                               const model::Value* constants) {
+  return operand & kConstantBit ? constants[operand & ~kConstantBit] : registers[operand];
+}
+
 class Machine {
  public:
   Machine(const Program& program, const RunOptions& options, const Host& host);
