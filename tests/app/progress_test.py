@@ -64,6 +64,8 @@ class Progress(harness.ProgramTest):
         self.assertEqual(self.screen(shown).split("\n")[:20], [f"turn {i}" for i in range(1, 21)])
 
     def test_long_picture(self):
+        if harness.Options.sanitized:
+            self.skipTest("the picture takes minutes under sanitizers")
         self.write("long.trn", "place arc xy=0,0,0 xy=5,0,5 xy=10,0,0 as p\n"
                                "construct surface revolution of=p from=[0,0,-1] to=[9,0,-1]\nset view phong antialias\n"
                                "render size=[2400,1800]\n")

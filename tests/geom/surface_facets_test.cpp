@@ -243,9 +243,16 @@ TEST(SurfaceFacets, PlanesNeedTwoFacetsHoweverFine) {
 
 TEST(SurfaceFacets, TooManyFacetsAreRefused) {
   EXPECT_EQ(Tessellate(Sphere(), {1e-300, 0}).error().code, ErrorCode::kTooLarge);
+  EXPECT_EQ(Tessellate(Sphere(), {1, 2'000'000'000}).error().code, ErrorCode::kTooLarge);
+}
+
+// These are refused only after large grids were tried: seconds, and minutes under sanitizers.
+TEST(SurfaceFacets, TooManyFacetsAreRefusedShortOfHopeless) {
+#ifdef TRANOS_SANITIZED
+  GTEST_SKIP() << "too slow under sanitizers";
+#endif
   EXPECT_EQ(Tessellate(Patch(), {1e-12, 0}).error().code, ErrorCode::kTooLarge);
   EXPECT_EQ(Tessellate(Saddle(), {1e-14, 0}).error().code, ErrorCode::kTooLarge);
-  EXPECT_EQ(Tessellate(Sphere(), {1, 2'000'000'000}).error().code, ErrorCode::kTooLarge);
 }
 
 }  // namespace

@@ -46,7 +46,7 @@ TEST(Journal, HasALineForEachKeyInWithItsPlaceAndHashes) {
   const Json& added = lines[3]["edit"]["added"][0];
   EXPECT_EQ(added["type"], "line");
   EXPECT_EQ(added["geometry"]["end"], Json({10.0, 0.0, 0.0}));
-  EXPECT_EQ(lines[3]["ids"], Json({0}));
+  EXPECT_EQ(lines[3]["ids"], Json::array({0}));
   EXPECT_EQ(lines[4]["key_in"], "as sill");
   EXPECT_EQ(lines[4]["edit"]["replaced"][0]["name"], "sill");
   EXPECT_NE(lines[3]["model"], lines[4]["model"]);
