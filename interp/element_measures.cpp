@@ -2,31 +2,12 @@
 // Measures of elements, with the reason where there is none.
 #include <cmath>
 
+#include "interp/geometry_error.h"
 #include "interp/value_support.h"
 
 namespace tranos::interp {
 
 namespace {
-
-Code CodeOf(geom::ErrorCode code) {
-  switch (code) {
-    case geom::ErrorCode::kDegenerate:
-      return Code::kDegenerate;
-    case geom::ErrorCode::kNotClosed:
-      return Code::kNotClosed;
-    case geom::ErrorCode::kNotPlanar:
-      return Code::kNotPlanar;
-    case geom::ErrorCode::kDoNotMeet:
-      return Code::kDoNotMeet;
-    case geom::ErrorCode::kNotAGraph:
-      return Code::kNotAGraph;
-    case geom::ErrorCode::kOutOfRange:
-      return Code::kOutOfRange;
-    case geom::ErrorCode::kTooLarge:
-      return Code::kTooManyFacets;
-  }
-  return Code::kDegenerate;
-}
 
 double Finite(double measure) {
   if (!std::isfinite(measure))

@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+#include "interp/geometry_error.h"
+
 namespace tranos::interp {
 
 using model::ElementPtr;
@@ -12,26 +14,6 @@ using model::State;
 using model::Value;
 
 namespace {
-
-Code CodeOf(geom::ErrorCode code) {
-  switch (code) {
-    case geom::ErrorCode::kDegenerate:
-      return Code::kDegenerate;
-    case geom::ErrorCode::kNotClosed:
-      return Code::kNotClosed;
-    case geom::ErrorCode::kNotPlanar:
-      return Code::kNotPlanar;
-    case geom::ErrorCode::kDoNotMeet:
-      return Code::kDoNotMeet;
-    case geom::ErrorCode::kNotAGraph:
-      return Code::kNotAGraph;
-    case geom::ErrorCode::kOutOfRange:
-      return Code::kOutOfRange;
-    case geom::ErrorCode::kTooLarge:
-      return Code::kTooManyFacets;
-  }
-  return Code::kDegenerate;
-}
 
 bool IsFar(double length_m) { return !(std::abs(length_m) <= kFarthest_m); }
 
