@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What a calibration found, as a plain value: the camera, how sure each parameter is, and what the
+// data could not determine.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "camera/camera.h"
+#include "camera/traces.h"
+
+namespace tranos::camera {
+
+// How much of a parameter's information came from where; the three add up to 1.
+struct Shares {
+  double pixels = 1;  // the dots
+  double metric = 0;  // unknowns with a deviation of their own
+  double priors = 0;  // what was assumed of the camera
+};
+
+struct ParameterEstimate {
+  double sigma = 0;  // of the value in `Estimate::camera`, in its unit; without meaning if free
+  bool determined = true;
+  bool from_prior = false;  // not determined by the data, held by a prior alone
+  Shares shares;
+
+  bool free() const { return !determined && !from_prior; }  // its value means nothing
+};
+
+struct UnknownEstimate {
+  std::string name;
+  double value = 0;
+  double sigma = 0;
+  bool determined = true;
+  bool at_bound = false;
+};
+
+// A second pose that explains the traces within their noise.
+struct Alternative {
+  Camera camera;
+  double chi2 = 0;
+};
+
+// What remains between a trace and what the camera says it should be.
+struct TraceResidual {
+  int trace = 0;                 // index in Photograph::traces
+  std::vector<double> whitened;  // in deviations
+  double weight = 1;             // of the robust loss; below 0.5 it is doubted
+};
+
+struct TrialSpread {  // the paper's Step I
+  int trials = 0;
+  ParameterVector mean = ParameterVector::Zero();
+  ParameterVector deviation = ParameterVector::Zero();
+};
+
+struct ProfilePoint {
+  double alpha_rad;
+  double chi2;  // least, with the other parameters re-adjusted
+};
+
+struct Estimate {
+  Camera camera;
+  ParameterEstimate parameters[kParameters];
+  // Of the camera's parameters and then the unknowns, in their order; free ones have zero rows.
+  Eigen::MatrixXd covariance;
+  double chi2 = 0;
+  int dof = 0;
+  double noise_px = 0;              // stated, or estimated from the residuals
+  bool noise_is_estimated = false;  // then intervals are Student's t with `dof`
+  std::vector<UnknownEstimate> unknowns;
+  std::vector<Alternative> alternatives;
+  std::vector<TraceResidual> residuals;
+  std::vector<std::string> undetermined;  // in words: what trades off, and what would determine it
+  std::vector<std::string> warnings;      // near-degenerate vanishing points, tilt, pan
+  std::vector<ProfilePoint> profile;
+  TrialSpread trials;
+  Mat3 facade_homography =
+      Mat3::Zero();  // dots from metres on facade 0, where a rectangle gives it
+
+  bool determined() const {
+    for (const ParameterEstimate& p : parameters) {
+      if (p.free()) return false;
+    }
+    return true;
+  }
+};
+
+}  // namespace tranos::camera
