@@ -61,6 +61,7 @@ enum class ErrorCode {
   kNotAGraph,   // a surface with more than one height over a point of its plan
   kOutOfRange,  // a number outside the range the function states
   kTooLarge,    // a result above the stated cap (facets, poles)
+  kUnreadable,  // bytes that are not, or not wholly, what they should be
 };
 
 // `detail` states the situation in words that fit after a colon; `part` is the index of the
