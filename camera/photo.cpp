@@ -167,21 +167,39 @@ bool ReadHeader(PngFile* file) {
   png_set_user_limits(file->png, 0x7fffffff, 0x7fffffff);
   png_set_chunk_cache_max(file->png, 16);
   png_set_chunk_malloc_max(file->png, 1u << 20);
-  // Text, profiles and the rest are not looked at; how the picture is turned is.
+  // Text, profiles and the rest are passed over; nothing is allocated for what they say they hold.
   png_set_keep_unknown_chunks(file->png, PNG_HANDLE_CHUNK_NEVER, nullptr, -1);
-  png_set_keep_unknown_chunks(file->png, PNG_HANDLE_CHUNK_AS_DEFAULT,
+  png_set_keep_unknown_chunks(file->png, PNG_HANDLE_CHUNK_NEVER,
                               reinterpret_cast<png_const_bytep>("eXIf"), 1);
   png_read_info(file->png, file->info);
   return true;
 }
 
-int OrientationOf(const PngFile& file) {
-  png_uint_32 size = 0;
-  png_bytep exif = nullptr;
-  if (!png_get_eXIf_1(file.png, file.info, &size, &exif) || !exif) return 1;
-  std::vector<unsigned char> marked(std::begin(kExifMark), std::end(kExifMark));
-  marked.insert(marked.end(), exif, exif + size);
-  return OrientationOf(marked.data(), marked.size());
+std::uint32_t BigEndian(Bytes four) {
+  std::uint32_t value = 0;
+  for (int i = 0; i < 4; ++i) value = value << 8 | std::to_integer<std::uint32_t>(four[i]);
+  return value;
+}
+
+// Of the chunk eXIf, if it is whole and comes before the pixels. libpng would allocate whatever
+// length it states.
+int OrientationOfPng(Bytes file) {
+  constexpr std::size_t kSignature = 8, kHead = 8, kCrc = 4;
+  Bytes rest = file.subspan(std::min(kSignature, file.size()));
+  while (rest.size() >= kHead) {
+    const std::size_t size = BigEndian(rest);
+    const std::string_view name(reinterpret_cast<const char*>(rest.data()) + 4, 4);
+    if (name == "IDAT" || size + kCrc > rest.size() - kHead) return 1;
+    if (name == "eXIf") {
+      std::vector<unsigned char> exif(std::begin(kExifMark), std::end(kExifMark));
+      for (const std::byte b : rest.subspan(kHead, std::min<std::size_t>(size, 0xffff))) {
+        exif.push_back(std::to_integer<unsigned char>(b));
+      }
+      return OrientationOf(exif.data(), exif.size());
+    }
+    rest = rest.subspan(kHead + size + kCrc);
+  }
+  return 1;
 }
 
 Result<Stored> Open(PngFile& file, Bytes bytes, std::int64_t max_pixels) {
@@ -191,7 +209,7 @@ Result<Stored> Open(PngFile& file, Bytes bytes, std::int64_t max_pixels) {
   if (!file.info || !ReadHeader(&file)) return Damaged("PNG", file.message.data());
   const auto stored =
       Checked(png_get_image_width(file.png, file.info), png_get_image_height(file.png, file.info),
-              OrientationOf(file), max_pixels);
+              OrientationOfPng(bytes), max_pixels);
   // Deflate makes at most 1032 bytes of one.
   const std::size_t row_bytes = png_get_rowbytes(file.png, file.info);
   if (stored && row_bytes * stored->height_px / 1032 > bytes.size()) {
