@@ -40,6 +40,11 @@ int ResidualsOf(const Trace& trace) {
       trace);
 }
 
+FacadePlane PlaneOf(const Layout& layout, int facade, const Eigen::VectorXd& state) {
+  const int column = layout.facade_column[facade];
+  return column < 0 ? FacadePlane{} : FacadePlane{state[column], state[column + 1]};
+}
+
 // Writes the rows of one photograph's traces.
 class Writer {
  public:
@@ -76,15 +81,11 @@ class Writer {
     to_.jacobian(row_ - 1, column) += weight_ * derivative;
   }
 
-  FacadePlane PlaneOf(int facade) const {
-    const int column = layout_.facade_column[facade];
-    return column < 0 ? FacadePlane{} : FacadePlane{state_[column], state_[column + 1]};
-  }
   // The last row's derivative by where the facade is; `p` is the point on it.
   void ByPlane(int facade, const Vec2& p, const Vec3& derivative) {
     const int column = layout_.facade_column[facade];
     if (column < 0) return;
-    const FacadePlane plane = PlaneOf(facade);
+    const FacadePlane plane = PlaneOf(layout_, facade, state_);
     ByNuisance(column, derivative.dot(plane.ByAzimuth(p)));
     ByNuisance(column + 1, derivative.dot(plane.away()));
   }
@@ -133,7 +134,7 @@ class Writer {
   template <class By>
   void WritePoint(const View& view, int facade, const Vec2& p, const Vec2& dot, double sigma,
                   const By& by) {
-    const FacadePlane plane = PlaneOf(facade);
+    const FacadePlane plane = PlaneOf(layout_, facade, state_);
     for (const Residual& r : PointResiduals(view, dot, sigma, plane.Point(p))) {
       Put(r);
       ByPlane(facade, p, r.by_point[0]);
@@ -184,7 +185,7 @@ class Writer {
   }
 
   void Write(const View& view, const CircleTrace& trace) {
-    const FacadePlane plane = PlaneOf(trace.facade);
+    const FacadePlane plane = PlaneOf(layout_, trace.facade, state_);
     const Vec2 centre = state_.segment<2>(column_);
     const double radius = state_[column_ + 2];
     for (const Vec2& dot : trace.dots_px) {
@@ -312,6 +313,33 @@ Eigen::VectorXd StartState(std::span<const Photograph> photographs, const Layout
                layout.trace_column[rows.photograph][rows.trace], state);
   }
   return state;
+}
+
+bool SeesFacades(std::span<const Photograph> photographs, const Layout& layout,
+                 const Numbers& numbers, const Eigen::VectorXd& state) {
+  return std::ranges::all_of(layout.traces, [&](const TraceRows& rows) {
+    const Photograph& photograph = photographs[rows.photograph];
+    const Trace& trace = photograph.traces[rows.trace];
+    const int facade = FacadeOf(trace);
+    if (facade < 0) return true;
+    const View view = ViewOf(CameraAt(state, rows.photograph).parameters, photograph.frame);
+    const FacadePlane plane = PlaneOf(layout, facade, state);
+    const int column = layout.trace_column[rows.photograph][rows.trace];
+    const Vec2 at = column < 0 ? Vec2(Vec2::Zero()) : Vec2(state.segment<2>(column));
+    const auto* rectangle = std::get_if<RectangleTrace>(&trace);
+    const Vec2 size = rectangle ? Vec2(numbers.values[rectangle->a], numbers.values[rectangle->b])
+                                : Vec2(Vec2::Zero());
+    return See(view, plane.Point(at)).dot.z() > 0 && See(view, plane.Point(at + size)).dot.z() > 0;
+  });
+}
+
+Mat3 DotFromFacade(const Photograph& photograph, int index, const Layout& layout, int facade,
+                   const Eigen::VectorXd& state) {
+  const FacadePlane plane = PlaneOf(layout, facade, state);
+  const ProjectionMatrix dot_from_world = DotFromWorld(CameraAt(state, index), photograph.frame);
+  Eigen::Matrix<double, 4, 3> world_from_facade;
+  world_from_facade << plane.right(), Vec3::UnitZ(), plane.distance_m * plane.away(), 0, 0, 1;
+  return dot_from_world * world_from_facade;
 }
 
 geom::Result<Linearised> Linearise(std::span<const Photograph> photographs,

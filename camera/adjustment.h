@@ -64,6 +64,14 @@ geom::Result<Linearised> Linearise(std::span<const Photograph>, std::span<const 
                                    const Layout&, const Numbers&, const Eigen::VectorXd& state,
                                    double noise_scale = 1);
 
+// Whether what is traced on facades is before the cameras.
+bool SeesFacades(std::span<const Photograph>, const Layout&, const Numbers&,
+                 const Eigen::VectorXd& state);
+
+// Dots of a photograph from metres on a facade, to the right and upward.
+Mat3 DotFromFacade(const Photograph&, int photograph, const Layout&, int facade,
+                   const Eigen::VectorXd& state);
+
 inline Camera CameraAt(const Eigen::VectorXd& state, int photograph) {
   return {state.segment<kParameters>(kParameters * photograph)};
 }

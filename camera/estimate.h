@@ -39,6 +39,7 @@ struct UnknownEstimate {
 struct Alternative {
   Camera camera;
   double chi2 = 0;
+  Eigen::MatrixXd covariance;  // as Estimate's; empty where it was not worked out
 };
 
 // What remains between a trace and what the camera says it should be.
@@ -68,6 +69,8 @@ struct Estimate {
   int dof = 0;
   double noise_px = 0;              // stated, or estimated from the residuals
   bool noise_is_estimated = false;  // then intervals are Student's t with `dof`
+  // Half the width of a 95 % interval in deviations: the normal distribution's, or Student's t.
+  double quantile95 = 1.959963984540054;
   std::vector<UnknownEstimate> unknowns;
   std::vector<Alternative> alternatives;
   std::vector<TraceResidual> residuals;

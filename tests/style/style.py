@@ -30,6 +30,7 @@ DOORS = [
     ("hersheyfont.h", ["geom/stroke_font.cpp"]),
     ("opencv2/", ["camera/*.cpp"]),
     ("ceres/", ["camera/refinement.cpp"]),
+    ("glog/", ["camera/refinement.cpp"]),
     ("xxhash.h", ["model/hash.cpp"]),
     ("utf8proc.h", ["interp/*.cpp"]),
     ("tiny_gltf.h", ["output/gltf.cpp"]),

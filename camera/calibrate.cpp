@@ -1,0 +1,434 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "camera/calibrate.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "camera/determination.h"
+#include "camera/estimation.h"
+#include "camera/likelihood.h"
+#include "camera/start.h"
+#include "camera/statistics.h"
+#include "camera/trace_checks.h"
+
+namespace tranos::camera {
+
+namespace {
+
+using geom::Error;
+using geom::ErrorCode;
+
+Eigen::VectorXd StartsOf(std::span<const Unknown> unknowns) {
+  Eigen::VectorXd u(unknowns.size());
+  for (Eigen::Index i = 0; i < u.size(); ++i) {
+    u[i] = std::clamp(unknowns[i].start, unknowns[i].min, unknowns[i].max);
+  }
+  return u;
+}
+
+// The same numbers whatever the unknowns are.
+NumbersOfUnknowns Constant(const Numbers& numbers) {
+  return [&numbers](const Eigen::VectorXd&) -> geom::Result<Numbers> { return numbers; };
+}
+
+// Angles as they are told, without whole turns.
+void Unwind(Eigen::VectorXd& state, int cameras) {
+  for (int p = 0; p < cameras; ++p) {
+    const Camera camera = CameraAt(state, p);
+    const Camera plain = CameraOf(FrameFromCamera(camera.parameters),
+                                  CameraFromWorld(camera.parameters), camera.position_m());
+    state.segment<4>(kParameters * p + kSkew) = plain.parameters.segment<4>(kSkew);
+  }
+}
+
+// What an adjustment is about.
+struct Task {
+  std::span<const Photograph> photographs;
+  std::span<const Unknown> unknowns;
+  const NumbersOfUnknowns& numbers_of;
+  Layout layout;
+  RefineOptions refine;
+
+  bool needs_camera_alone() const {
+    return photographs.size() == 1 && unknowns.empty() && refine.loss == Loss::kNone &&
+           refine.noise_scale == 1 && NeedsCameraAlone(photographs[0]);
+  }
+};
+
+geom::Result<Refined> RefineAlone(const Task& task, const Numbers& numbers, const Camera& start) {
+  const CameraFit fit = FitCamera(task.photographs[0], numbers, start, task.refine.skew_rad);
+  if (!std::isfinite(fit.chi2) || !fit.camera.parameters.allFinite()) {
+    return tl::unexpected(
+        Error{ErrorCode::kDegenerate, "the camera has no image of what is traced"});
+  }
+  Refined refined;
+  refined.state = fit.camera.parameters;
+  refined.numbers = numbers;
+  refined.chi2 = refined.cost = fit.chi2;
+  refined.weights.assign(task.layout.traces.size(), 1.0);
+  refined.converged = fit.converged;
+  return refined;
+}
+
+geom::Result<Refined> RefineFrom(const Task& task, const Numbers& numbers,
+                                 std::span<const Camera> cameras, const Eigen::VectorXd& u) {
+  if (task.needs_camera_alone()) return RefineAlone(task, numbers, cameras[0]);
+  return Refine(task.photographs, task.unknowns, task.layout, task.numbers_of,
+                StartState(task.photographs, task.layout, numbers, cameras, u), task.refine);
+}
+
+// From a state that is nearly right.
+geom::Result<Refined> RefineAgain(const Task& task, const Refined& near) {
+  if (task.needs_camera_alone()) return RefineAlone(task, near.numbers, CameraAt(near.state, 0));
+  return Refine(task.photographs, task.unknowns, task.layout, task.numbers_of, near.state,
+                task.refine);
+}
+
+bool SeesAll(const Task& task, const Refined& refined) {
+  for (int p = 0; p < task.layout.cameras; ++p) {
+    if (!SeesTraces(task.photographs[p], refined.numbers, CameraAt(refined.state, p))) return false;
+  }
+  return SeesFacades(task.photographs, task.layout, refined.numbers, refined.state);
+}
+
+// Poses of one photograph, that of least cost first; those that see what is traced before others.
+geom::Result<std::vector<Refined>> Poses(const Task& task, const Numbers& numbers,
+                                         const Eigen::VectorXd& u) {
+  std::vector<Refined> seeing, others;
+  Error failure{ErrorCode::kDegenerate, "too little is traced to find a camera from"};
+  const std::vector<Camera> starts = Starts(task.photographs[0], numbers);
+  for (const Camera& start : starts) {
+    geom::Result<Refined> refined = RefineFrom(task, numbers, {&start, 1}, u);
+    if (!refined) {
+      failure = refined.error();
+      continue;
+    }
+    Unwind(refined->state, 1);
+    (SeesAll(task, *refined) ? seeing : others).push_back(std::move(*refined));
+  }
+  const auto by_cost = [](const Refined& a, const Refined& b) { return a.cost < b.cost; };
+  std::ranges::stable_sort(seeing, by_cost);
+  std::ranges::stable_sort(others, by_cost);
+  seeing.insert(seeing.end(), std::make_move_iterator(others.begin()),
+                std::make_move_iterator(others.end()));
+  if (seeing.empty()) return tl::unexpected(failure);
+  return seeing;
+}
+
+bool AreOnePose(const Camera& a, const Camera& b) {
+  const Mat3 turn = CameraFromWorld(a.parameters) * CameraFromWorld(b.parameters).transpose();
+  const double distance = (a.position_m() - b.position_m()).norm();
+  return Eigen::AngleAxisd(turn).angle() < 1e-3 && distance < 1e-3 * (1 + a.position_m().norm());
+}
+
+// Each photograph's own poses, and all photographs together from the first of each.
+struct Adjusted {
+  Refined best;
+  std::vector<Refined> others;  // of a single photograph: poses within noise
+};
+
+geom::Result<Adjusted> Adjust(const Task& task, const Numbers& numbers, const Eigen::VectorXd& u) {
+  constexpr double kWithinNoise = 9;
+  if (task.photographs.size() == 1) {
+    auto poses = Poses(task, numbers, u);
+    if (!poses) return tl::unexpected(poses.error());
+    Adjusted adjusted{std::move(poses->front()), {}};
+    for (std::size_t i = 1; i < poses->size(); ++i) {
+      const Refined& pose = (*poses)[i];
+      const auto is_known = [&](const Refined& other) {
+        return AreOnePose(CameraAt(pose.state, 0), CameraAt(other.state, 0));
+      };
+      if (pose.cost > adjusted.best.cost + kWithinNoise || !SeesAll(task, pose) ||
+          is_known(adjusted.best) || std::ranges::any_of(adjusted.others, is_known)) {
+        continue;
+      }
+      adjusted.others.push_back(pose);
+    }
+    return adjusted;
+  }
+  std::vector<Camera> cameras;
+  for (const Photograph& photograph : task.photographs) {
+    const std::span<const Photograph> one(&photograph, 1);
+    const auto poses =
+        Poses({one, task.unknowns, task.numbers_of, LayoutOf(one, task.unknowns), task.refine},
+              numbers, u);
+    if (!poses) return tl::unexpected(poses.error());
+    cameras.push_back(CameraAt(poses->front().state, 0));
+  }
+  auto refined = RefineFrom(task, numbers, cameras, u);
+  if (!refined) return tl::unexpected(refined.error());
+  Unwind(refined->state, task.layout.cameras);
+  return Adjusted{std::move(*refined), {}};
+}
+
+// The misfit of dots by their stated deviations, and the degrees of freedom that are theirs.
+struct DotNoise {
+  double variance = 1;  // in units of the stated one
+  double dof = 0;
+};
+
+DotNoise DotNoiseOf(const Task& task, const Refined& refined) {
+  const auto at = Linearise(task.photographs, task.unknowns, task.layout, refined.numbers,
+                            refined.state, task.refine.noise_scale);
+  if (!at) return {};
+  const Determined determined =
+      DeterminedOf(task.photographs, task.unknowns, task.layout, refined, *at);
+  // Each prior takes as many of the parameters upon itself as it has a share in them.
+  double taken = determined.determination.rank;
+  const int priors = task.layout.rows() - task.layout.trace_rows;
+  const auto rows = at->jacobian.bottomRows(priors);
+  taken -= (rows * determined.determination.covariance * rows.transpose()).trace();
+  const double chi2 = at->residuals.head(task.layout.trace_rows).squaredNorm();
+  const double dof = task.layout.trace_rows - taken;
+  return {dof > 0.5 ? chi2 / dof : 1, dof};
+}
+
+// Scales the noise until the dots' misfit is what it should be. The scale moves the solution only
+// where there are priors.
+geom::Result<DotNoise> EstimateNoise(Task& task, Adjusted& adjusted) {
+  constexpr int kRounds = 20;
+  DotNoise noise;
+  for (int i = 0; i < kRounds; ++i) {
+    noise = DotNoiseOf(task, adjusted.best);
+    // Exact traces leave nothing but rounding.
+    const double scale = std::max(std::sqrt(noise.variance), 1e-6);
+    task.refine.noise_scale *= scale;
+    if (task.layout.rows() > task.layout.trace_rows) {
+      auto refined = RefineAgain(task, adjusted.best);
+      if (!refined) return tl::unexpected(refined.error());
+      adjusted.best = std::move(*refined);
+    }
+    if (std::abs(scale - 1) < 1e-6 || task.refine.noise_scale < 1e-5) break;
+  }
+  return noise;
+}
+
+// The trace or unknown whose residuals are largest for their number.
+struct Worst {
+  std::string name;
+  int photograph = -1;
+  int trace = -1;
+};
+
+Worst WorstOf(const Task& task, const Linearised& at) {
+  Worst worst;
+  double most = 0;
+  const auto consider = [&](double value, Worst candidate) {
+    if (value <= most) return;
+    most = value;
+    worst = std::move(candidate);
+  };
+  for (const TraceRows& rows : task.layout.traces) {
+    const double mean = at.residuals.segment(rows.first_row, rows.rows).squaredNorm() / rows.rows;
+    consider(mean, {fmt::format("trace {}", rows.trace + 1), rows.photograph, rows.trace});
+  }
+  int row = task.layout.trace_rows;
+  for (const Unknown& unknown : task.unknowns) {
+    if (!(unknown.sigma > 0)) continue;
+    const double r = at.residuals[row++];
+    consider(r * r, {unknown.name.empty() ? "a dimension" : "`" + unknown.name + "`"});
+  }
+  return worst;
+}
+
+std::string Disagreement(const Task& task, const Worst& worst, double chi2, int dof) {
+  const bool is_direction =
+      worst.trace >= 0 && std::holds_alternative<DirectionTrace>(
+                              task.photographs[worst.photograph].traces[worst.trace]);
+  return fmt::format(
+      "{}: χ² is {:.4g} with {} degrees of freedom, and {} is farthest off",
+      is_direction ? "the edges' directions are not parallel or orthogonal as they are said to be, "
+                     "or the noise is larger than stated"
+                   : "dimensions and traces disagree, or the noise is larger than stated",
+      chi2, dof, worst.name);
+}
+
+void Scatter(ImageLine& line, NormalNumbers& noise) {
+  const Vec2 along = (line.b_px - line.a_px).normalized(), across(-along.y(), along.x());
+  const double centre = line.centre_sigma_px * noise.Next(),
+               tilt = line.tilt_sigma_px * noise.Next();
+  line.a_px += (centre - 0.5 * tilt) * across;
+  line.b_px += (centre + 0.5 * tilt) * across;
+}
+
+// Another drawing of everything that was measured or assumed, about what was.
+void Scatter(Photograph& photograph, double scale, NormalNumbers& noise) {
+  for (Trace& trace : photograph.traces) {
+    std::visit(
+        [&](auto& t) {
+          if constexpr (requires { t.line; }) {
+            ImageLine scaled = t.line;
+            scaled.centre_sigma_px *= scale, scaled.tilt_sigma_px *= scale;
+            Scatter(scaled, noise);
+            t.line.a_px = scaled.a_px, t.line.b_px = scaled.b_px;
+          } else {
+            const auto move = [&](Vec2& dot) {
+              dot.x() += scale * t.sigma_px * noise.Next();
+              dot.y() += scale * t.sigma_px * noise.Next();
+            };
+            if constexpr (requires { t.dots_px; }) {
+              for (Vec2& dot : t.dots_px) move(dot);
+            } else {
+              move(t.dot_px);
+            }
+          }
+        },
+        trace);
+  }
+  for (Prior& prior : photograph.priors) {
+    if (prior.sigma > 0) prior.value += prior.sigma * noise.Next();
+  }
+}
+
+// By photograph; trials that find no camera are not counted.
+std::vector<TrialSpread> Trials(const Task& task, const Refined& near, int trials,
+                                std::uint64_t seed) {
+  NormalNumbers noise(seed);
+  std::vector<TrialSpread> spread(task.photographs.size());
+  std::vector<ParameterVector> squares(spread.size(), ParameterVector::Zero());
+  for (int i = 0; i < trials; ++i) {
+    std::vector<Photograph> photographs(task.photographs.begin(), task.photographs.end());
+    std::vector<Unknown> unknowns(task.unknowns.begin(), task.unknowns.end());
+    for (Photograph& photograph : photographs) Scatter(photograph, task.refine.noise_scale, noise);
+    for (Unknown& unknown : unknowns) unknown.start += unknown.sigma * noise.Next();
+    auto refined =
+        RefineAgain({photographs, unknowns, task.numbers_of, task.layout, task.refine}, near);
+    if (!refined) continue;
+    Unwind(refined->state, task.layout.cameras);
+    for (std::size_t p = 0; p < spread.size(); ++p) {
+      const ParameterVector x = CameraAt(refined->state, static_cast<int>(p)).parameters;
+      // About the estimate, so that squares of large numbers are not subtracted.
+      const ParameterVector d = x - CameraAt(near.state, static_cast<int>(p)).parameters;
+      ++spread[p].trials;
+      spread[p].mean += d;
+      squares[p] += d.cwiseProduct(d);
+    }
+  }
+  for (std::size_t p = 0; p < spread.size(); ++p) {
+    TrialSpread& s = spread[p];
+    if (s.trials < 2) continue;
+    const ParameterVector mean = s.mean / s.trials;
+    s.mean = CameraAt(near.state, static_cast<int>(p)).parameters + mean;
+    s.deviation = ((squares[p] - s.trials * mean.cwiseProduct(mean)) / (s.trials - 1))
+                      .cwiseMax(0)
+                      .cwiseSqrt();
+  }
+  return spread;
+}
+
+// From the estimate outward on both sides, each from its neighbour.
+std::vector<ProfilePoint> Profile(const Task& task, const Refined& best, const ProfileRange& range) {
+  const auto count =
+      static_cast<int>(std::floor((range.to_rad - range.from_rad) / range.step_rad + 0.5));
+  std::vector<ProfilePoint> profile(std::max(count + 1, 0));
+  for (int i = 0; i <= count; ++i) {
+    profile[i] = {range.from_rad + i * range.step_rad, std::numeric_limits<double>::infinity()};
+  }
+  const double here = (best.state[kSkew] - range.from_rad) / range.step_rad;
+  const int middle = std::clamp(static_cast<int>(std::lround(here)), 0, std::max(count, 0));
+  for (const int way : {1, -1}) {
+    Refined near = best;
+    for (int i = way > 0 ? middle : middle - 1; i >= 0 && i <= count; i += way) {
+      Task held = task;
+      held.refine.skew_rad = profile[i].alpha_rad;
+      auto refined = RefineAgain(held, near);
+      if (!refined) break;
+      near = std::move(*refined);
+      profile[i].chi2 = near.chi2;
+    }
+  }
+  return profile;
+}
+
+}  // namespace
+
+geom::Result<std::vector<Estimate>> Calibrate(std::span<const Photograph> photographs,
+                                              std::span<const Unknown> unknowns,
+                                              const NumbersOfUnknowns& numbers_of,
+                                              const CalibrateOptions& options) {
+  if (photographs.empty())
+    return tl::unexpected(Error{ErrorCode::kDegenerate, "there is no photograph"});
+  const Eigen::VectorXd u = StartsOf(unknowns);
+  const geom::Result<Numbers> numbers = numbers_of(u);
+  if (!numbers) return tl::unexpected(numbers.error());
+  if (auto wrong = WrongWith(photographs, *numbers)) return tl::unexpected(*wrong);
+  Task task{photographs,
+            unknowns,
+            numbers_of,
+            LayoutOf(photographs, unknowns),
+            {.loss = options.loss, .noise_scale = 1, .skew_rad = {}}};
+  auto adjusted = Adjust(task, *numbers, u);
+  if (!adjusted) return tl::unexpected(adjusted.error());
+  std::vector<std::string> warnings;
+  DotNoise noise;
+  bool noise_is_estimated = false;
+  if (options.noise_is_estimated) {
+    noise = DotNoiseOf(task, adjusted->best);
+    noise_is_estimated = noise.dof > 0.5;
+    if (noise_is_estimated) {
+      const auto estimated = EstimateNoise(task, *adjusted);
+      if (!estimated) return tl::unexpected(estimated.error());
+      noise = *estimated;
+    } else {
+      warnings.push_back(
+          "nothing is traced beyond what the camera needs, so the noise cannot be "
+          "estimated: it is taken as stated");
+    }
+  }
+  auto at = Linearise(photographs, unknowns, task.layout, adjusted->best.numbers,
+                      adjusted->best.state, task.refine.noise_scale);
+  if (!at) return tl::unexpected(at.error());
+  if (!SeesAll(task, adjusted->best)) {
+    warnings.push_back("every camera that fits has some of what is traced behind it");
+  }
+  std::vector<Estimate> estimates =
+      EstimatesOf(photographs, unknowns, task.layout, adjusted->best, *at);
+  Estimate& first = estimates.front();
+  const int dof = first.dof;
+  const double chi2 = at->residuals.squaredNorm();
+  if (dof > 0 && ChiSquaredTail(chi2, dof) < 1e-6 && !noise_is_estimated) {
+    const Worst worst = WorstOf(task, *at);
+    const std::string text = Disagreement(task, worst, chi2, dof);
+    if (chi2 > 100.0 * dof && options.loss == Loss::kNone)
+      return tl::unexpected(Error{ErrorCode::kOutOfRange, text, worst.trace});
+    warnings.push_back(text);
+  }
+  for (std::size_t i = 0; i < adjusted->others.size() && first.determined(); ++i) {
+    Refined& other = adjusted->others[i];
+    const auto there = Linearise(photographs, unknowns, task.layout, other.numbers, other.state,
+                                 task.refine.noise_scale);
+    if (!there) continue;
+    const std::vector<Estimate> of_other =
+        EstimatesOf(photographs, unknowns, task.layout, other, *there);
+    first.alternatives.push_back({of_other[0].camera, of_other[0].chi2, of_other[0].covariance});
+  }
+  const std::vector<TrialSpread> trials =
+      options.trials > 0 ? Trials(task, adjusted->best, options.trials, options.seed)
+                         : std::vector<TrialSpread>(photographs.size());
+  for (std::size_t p = 0; p < estimates.size(); ++p) {
+    Estimate& estimate = estimates[p];
+    estimate.noise_px = options.noise_px * task.refine.noise_scale;
+    estimate.noise_is_estimated = noise_is_estimated;
+    if (noise_is_estimated) {
+      estimate.dof = std::max(1, static_cast<int>(std::lround(noise.dof)));
+      estimate.quantile95 = StudentQuantile(0.975, noise.dof);
+    }
+    estimate.trials = trials[p];
+    estimate.warnings.insert(estimate.warnings.begin(), warnings.begin(), warnings.end());
+  }
+  if (options.profile && options.profile->step_rad > 0) {
+    first.profile = Profile(task, adjusted->best, *options.profile);
+  }
+  return estimates;
+}
+
+geom::Result<Estimate> Calibrate(const Photograph& photograph, const Numbers& numbers,
+                                 const CalibrateOptions& options) {
+  auto estimates = Calibrate({&photograph, 1}, {}, Constant(numbers), options);
+  if (!estimates) return tl::unexpected(estimates.error());
+  return std::move(estimates->front());
+}
+
+}  // namespace tranos::camera

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The likeliest cameras and unknowns for everything traced, how sure they are, and what is not
+// determined: the one way in to this room's adjustment.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "camera/estimate.h"
+#include "camera/refinement.h"
+
+namespace tranos::camera {
+
+struct ProfileRange {
+  double from_rad;
+  double to_rad;
+  double step_rad;  // > 0
+};
+
+struct CalibrateOptions {
+  Loss loss = Loss::kNone;
+  double noise_px = 0.5;             // of a dot, as stated: only to be told in the result
+  bool noise_is_estimated = false;   // stated deviations then say only how dots compare
+  int trials = 0;                    // resamplings, the paper's Step I
+  std::uint64_t seed = 1;            // of these
+  std::optional<ProfileRange> profile;  // χ² over the skew of the first photograph
+};
+
+// An estimate for each photograph, all from one adjustment; what is told of unknowns, χ² and
+// degrees of freedom is the same in each. Each photograph's starts are refined with its own traces,
+// the pose of least χ² that has what is traced before it is taken, others within 9 of it are
+// alternatives; with several photographs all are then refined together.
+//
+// χ² is of dots, unknowns and priors by their stated deviations, `dof` the number of these less the
+// rank; with `noise_is_estimated`, deviations and shares are for the estimated noise, and `dof` is
+// of the dots alone. A misfit far beyond the degrees of freedom is a warning, and beyond ten
+// deviations for each an error, unless the loss is robust or the noise is estimated.
+//
+// Errors, `part` the index of the trace in its photograph: kDegenerate: a line traced twice, all
+// lines parallel, a rectangle traced crosswise or clockwise, axes that share a vanishing point, too
+// few traces to start from. kOutOfRange: a dimension that is not positive and finite, traces that
+// disagree. What `numbers_of` told.
+geom::Result<std::vector<Estimate>> Calibrate(std::span<const Photograph>, std::span<const Unknown>,
+                                              const NumbersOfUnknowns& numbers_of,
+                                              const CalibrateOptions& = {});
+
+// The same for one photograph and no unknowns.
+geom::Result<Estimate> Calibrate(const Photograph&, const Numbers&, const CalibrateOptions& = {});
+
+}  // namespace tranos::camera

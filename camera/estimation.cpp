@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "camera/estimation.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "camera/space_traces.h"
+#include "camera/vanishing_point.h"
+
+namespace tranos::camera {
+
+namespace {
+
+// From the camera to the middle of the points it is known to see, or 10 m.
+double DistanceOf(const Photograph& photograph, const Camera& camera, const Numbers& numbers) {
+  Vec3 sum = Vec3::Zero();
+  int points = 0;
+  const auto add = [&](NumberIndex first) {
+    sum += numbers.values.segment<3>(first);
+    ++points;
+  };
+  for (const Trace& trace : photograph.traces) {
+    if (const auto* edge = std::get_if<EdgeTrace>(&trace)) {
+      add(edge->from), add(edge->to);
+    } else if (const auto* point = std::get_if<PointTrace>(&trace)) {
+      add(point->at);
+    } else if (const auto* curve = std::get_if<CurveTrace>(&trace)) {
+      add(curve->first);
+    } else if (std::holds_alternative<RectangleTrace>(trace)) {
+      ++points;  // the origin is on the first facade
+    }
+  }
+  const double distance = points > 0 ? (sum / points - camera.position_m()).norm() : 0;
+  return distance > 0 ? distance : 10;
+}
+
+std::vector<Quantity> QuantitiesOfAll(std::span<const Photograph> photographs,
+                                      std::span<const Unknown> unknowns, const Layout& layout,
+                                      const Refined& refined) {
+  std::vector<Quantity> quantities;
+  for (int p = 0; p < layout.cameras; ++p) {
+    const Camera camera = CameraAt(refined.state, p);
+    for (const Quantity& q : QuantitiesOf(camera, photographs[p].frame,
+                                          DistanceOf(photographs[p], camera, refined.numbers))) {
+      quantities.push_back(q);
+    }
+  }
+  for (int i = 0; i < layout.unknowns; ++i) {
+    const double value = std::abs(refined.state[layout.unknown_column() + i]);
+    quantities.push_back({Quantity::Kind::kUnknown, value > 0 ? value : 1.0,
+                          unknowns[i].name.empty() ? "a dimension" : "`" + unknowns[i].name + "`"});
+  }
+  quantities.resize(static_cast<std::size_t>(layout.columns));
+  return quantities;
+}
+
+// C Jᵀ J C over the rows of each source adds up to C: how much variance came from where.
+std::vector<Shares> SharesOf(const Layout& layout, const Determined& determined) {
+  const Eigen::MatrixXd& covariance = determined.determination.covariance;
+  const Eigen::MatrixXd moved = covariance * determined.jacobian.transpose();
+  std::vector<Shares> shares(static_cast<std::size_t>(layout.columns));
+  for (int i = 0; i < layout.columns; ++i) {
+    const auto row = moved.row(i);
+    const double pixels = row.head(layout.trace_rows).squaredNorm();
+    const double metric = row.segment(layout.trace_rows, layout.unknown_prior_rows).squaredNorm();
+    const double priors = row.tail(layout.camera_prior_rows).squaredNorm();
+    const double sum = pixels + metric + priors;
+    if (sum > 0) shares[i] = {pixels / sum, metric / sum, priors / sum};
+  }
+  return shares;
+}
+
+Eigen::MatrixXd CovarianceOf(const Eigen::MatrixXd& all, const Layout& layout, int photograph) {
+  const int n = kParameters + layout.unknowns;
+  Eigen::VectorXi columns(n);
+  for (int i = 0; i < n; ++i) {
+    columns[i] =
+        i < kParameters ? kParameters * photograph + i : layout.unknown_column() + i - kParameters;
+  }
+  return all(columns, columns);
+}
+
+// Angles outside which methods by vanishing points are near to where they break down, and inside
+// which a tilted camera was meant (DESIGN.md; the paper's Section 6).
+void WarnOfAngles(const Camera& camera, std::vector<std::string>& warnings) {
+  const struct {
+    const char* name;
+    Parameter parameter;
+  } angles[] = {{"tilt", kOmega}, {"pan", kPhi}};
+  for (const auto& [name, parameter] : angles) {
+    const double degrees = std::abs(camera[parameter]) * 180 / kPi;
+    if (degrees >= 5 && degrees <= 40) continue;
+    warnings.push_back(fmt::format(
+        "the {} of {:.2f}° is outside 5° to 40°, where methods by vanishing points are weak", name,
+        degrees));
+  }
+}
+
+void WarnOfVanishingPoints(const Photograph& photograph, const Numbers& numbers,
+                           std::vector<std::string>& warnings) {
+  const AxisLines lines = AxisLinesOf(photograph, numbers);
+  for (int axis = 0; axis < 3; ++axis) {
+    if (lines[axis].size() < 2) continue;
+    const auto point = FitVanishingPoint(lines[axis], ConditioningOf(photograph.frame));
+    if (point && !point->nearly_degenerate() && point->FromInfinity() > 3) continue;
+    warnings.push_back(fmt::format(
+        "the edges along {} are parallel in the picture within noise: their vanishing point is "
+        "nearly degenerate",
+        "XYZ"[axis]));
+  }
+}
+
+bool HasFacade(const Photograph& photograph, int facade) {
+  return std::ranges::any_of(photograph.traces, [&](const Trace& trace) {
+    const auto* rectangle = std::get_if<RectangleTrace>(&trace);
+    return rectangle && rectangle->facade == facade;
+  });
+}
+
+}  // namespace
+
+Determined DeterminedOf(std::span<const Photograph> photographs, std::span<const Unknown> unknowns,
+                        const Layout& layout, const Refined& refined, const Linearised& at) {
+  Determined determined{{}, at.jacobian};
+  for (std::size_t i = 0; i < layout.traces.size(); ++i) {
+    const TraceRows& rows = layout.traces[i];
+    determined.jacobian.middleRows(rows.first_row, rows.rows) *= std::sqrt(refined.weights[i]);
+  }
+  determined.determination = Determine(determined.jacobian, layout.data_rows(),
+                                       QuantitiesOfAll(photographs, unknowns, layout, refined));
+  return determined;
+}
+
+std::vector<Estimate> EstimatesOf(std::span<const Photograph> photographs,
+                                  std::span<const Unknown> unknowns, const Layout& layout,
+                                  const Refined& refined, const Linearised& at) {
+  const Determined determined = DeterminedOf(photographs, unknowns, layout, refined, at);
+  const Determination& d = determined.determination;
+  const std::vector<Shares> shares = SharesOf(layout, determined);
+  const auto sigma = [&](int column) {
+    return std::sqrt(std::max(0.0, d.covariance(column, column)));
+  };
+  Estimate common;
+  common.chi2 = at.residuals.squaredNorm();
+  common.dof = layout.rows() - d.rank;
+  common.undetermined = d.undetermined;
+  for (int i = 0; i < layout.unknowns; ++i) {
+    const int column = layout.unknown_column() + i;
+    const bool at_bound = !refined.at_bound.empty() && refined.at_bound[i];
+    common.unknowns.push_back({unknowns[i].name, refined.state[column], sigma(column),
+                               static_cast<bool>(d.with_priors[column]), at_bound});
+    if (!at_bound) continue;
+    common.warnings.push_back(fmt::format("`{}` is held at its bound", unknowns[i].name));
+  }
+  std::vector<Estimate> estimates;
+  for (int p = 0; p < layout.cameras; ++p) {
+    Estimate estimate = common;
+    estimate.camera = CameraAt(refined.state, p);
+    for (int i = 0; i < kParameters; ++i) {
+      const int column = kParameters * p + i;
+      ParameterEstimate& parameter = estimate.parameters[i];
+      parameter.determined = d.by_data[column];
+      parameter.from_prior = !d.by_data[column] && d.with_priors[column];
+      parameter.sigma = parameter.free() ? std::numeric_limits<double>::quiet_NaN() : sigma(column);
+      parameter.shares = shares[column];
+    }
+    estimate.covariance = CovarianceOf(d.covariance, layout, p);
+    if (!estimate.parameters[kOmega].free() && !estimate.parameters[kPhi].free())
+      WarnOfAngles(estimate.camera, estimate.warnings);
+    WarnOfVanishingPoints(photographs[p], refined.numbers, estimate.warnings);
+    if (HasFacade(photographs[p], 0)) {
+      estimate.facade_homography = DotFromFacade(photographs[p], p, layout, 0, refined.state);
+    }
+    for (std::size_t i = 0; i < layout.traces.size(); ++i) {
+      const TraceRows& rows = layout.traces[i];
+      if (rows.photograph != p) continue;
+      const auto r = at.residuals.segment(rows.first_row, rows.rows);
+      estimate.residuals.push_back(
+          {rows.trace, std::vector<double>(r.begin(), r.end()), refined.weights[i]});
+    }
+    estimates.push_back(std::move(estimate));
+  }
+  return estimates;
+}
+
+}  // namespace tranos::camera

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What is wrong with traces before any camera is looked for.
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "camera/traces.h"
+
+namespace tranos::camera {
+
+// The first thing that is wrong, `part` the index of the trace (−1: of none alone): numbers or dots
+// that are not finite, deviations, dimensions and ratios that are not positive, edges and dots of
+// no length, a circle of less than five dots, rectangles crosswise or clockwise, two lines that are
+// the same within noise and lie beside each other by more than half, lines all parallel within
+// noise and nothing else, two axes with one vanishing point.
+std::optional<geom::Error> WrongWith(std::span<const Photograph>, const Numbers&);
+
+}  // namespace tranos::camera
