@@ -2,6 +2,7 @@
 #include "camera/absolute_conic.h"
 
 #include <Eigen/LU>
+#include <Eigen/QR>
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
@@ -29,7 +30,12 @@ Decomposed Decompose(std::span<const Conic> rows) {
   a.setZero();
   for (size_t i = 0; i < rows.size(); ++i)
     if (largest > 0) a.row(static_cast<Eigen::Index>(i)) = rows[i] / largest;
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(a, Eigen::ComputeFullV);
+  using Square = Eigen::Matrix<double, 6, 6>;
+  const Square square =
+      rows.size() <= 6
+          ? Square(a)
+          : Square(a.householderQr().matrixQR().topRows<6>().triangularView<Eigen::Upper>());
+  const Eigen::JacobiSVD<Square> svd(square, Eigen::ComputeFullV);
   int rank = 0;
   while (rank < 6 && svd.singularValues()[rank] > kRank * svd.singularValues()[0]) ++rank;
   return {svd.matrixV(), rank};

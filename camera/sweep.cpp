@@ -18,8 +18,9 @@ tl::unexpected<geom::Error> Degenerate(const char* detail) {
 // What is the same for all angles.
 struct Sweep {
   SkewFamily family;
-  Mat3 axes;  // vanishing points, signed; the one not known is zero
-  int third;  // that one, or −1
+  Mat3 axes;        // vanishing points, signed; the one not known is zero
+  int third;        // that one, or −1
+  bool orthogonal;  // whether the constraints hold them to be so
   Eigen::Matrix<double, 3, 9> centre_from_left;  // P's fourth column from its others
   SpaceTraces traces;                            // about `origin_m`
   Vec3 origin_m;
@@ -47,8 +48,9 @@ Candidate At(const Sweep& sweep, double alpha) {
     if (sweep.third >= 0)
       r.col(sweep.third) = r.col((sweep.third + 1) % 3).cross(r.col((sweep.third + 2) % 3));
     r.colwise().normalize();
-    // One step towards the nearest rotation: the columns are orthogonal but for rounding.
-    r = (0.5 * r * (3 * Mat3::Identity() - r.transpose() * r)).eval();
+    // The constraints make the columns orthogonal but for rounding; where they do not, one step
+    // towards the nearest rotation.
+    if (!sweep.orthogonal) r = (0.5 * r * (3 * Mat3::Identity() - r.transpose() * r)).eval();
     const Mat3 left = InverseOfUpper(inverse) * r;
     const Vec3 last = sweep.centre_from_left * left.reshaped();
     const ConditionedCamera camera{inverse, r, -r.transpose() * (inverse * last)};
@@ -67,6 +69,7 @@ geom::Result<Sweep> Prepare(const Photograph& photograph, const Numbers& numbers
   const geom::Result<SkewFamily> family = SkewFamilyOf(IndependentRows(rows.all(), 4));
   if (!family) return tl::unexpected(family.error());
   sweep.family = *family;
+  sweep.orthogonal = IndependentRows(rows.orthogonal, 3).size() == rows.orthogonal.size();
   const std::optional<Mat3> inverse = InverseCalibration(family->without_skew);
   if (!inverse) return Degenerate("no real camera without skew fulfils the four constraints");
   const geom::Result<ConditionedCamera> reference =
