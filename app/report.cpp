@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/camera_json.h"
 #include "app/report.h"
 
 #include <algorithm>
@@ -135,7 +136,14 @@ void PrintJson(const ScriptRun& run, const std::vector<OutputFile>& outputs) {
     asserts.Add(AssertJson(assertion, *run.result.sources));
   }
   asserts.End();
-  JsonList("cameras").End();
+  JsonList cameras("cameras");
+  model.ForEach([&](const model::ElementPtr& element) {
+    const auto* photograph = std::get_if<model::PhotographPtr>(&element->geometry);
+    if (run.made_model() && photograph && (*photograph)->estimate) {
+      cameras.Add(CameraJson(*element, **photograph));
+    }
+  });
+  cameras.End();
   JsonList diagnostics("diagnostics");
   for (const interp::Diagnostic& diagnostic : run.result.diagnostics.list()) {
     diagnostics.Add(ordered_json::parse(interp::RenderJson(diagnostic, *run.result.sources)));

@@ -93,12 +93,23 @@ void Binder::BindCommand(NodeId id) {
   }
   Span span = SpanOf(words.front());
   span.end = SpanOf(words[used - 1]).end;
-  if (definition < 0 && !row->execute && row->history == HistoryStep::kNone) {
+  if (definition < 0 && !row->exists()) {
     return Error(Code::kNotYet, span, "`" + std::string(row->words) + "` is not there yet",
                  "part of the language, but not of this version");
   }
   if (definition >= 0) {
     unit().calls.push_back(program_->definitions[static_cast<std::size_t>(definition)].unit);
+  }
+  if (row->calibrates) {
+    if (!at_top_ || in_used_file_ || in_definition_) {
+      return Error(Code::kMisplaced, span, "`calibrate` stands at the top of a script",
+                   "inside a block here");
+    }
+    if (program_->calibrates) {
+      return Error(Code::kMisplaced, span, "`calibrate` stands once in a script",
+                   "it adjusts all photographs attached before it");
+    }
+    program_->calibrates = true;
   }
   Emit({Op::kStart, 0, 0, UseOf(row, definition), 0, 0}, span);
   scope_->command = row;
@@ -269,8 +280,11 @@ void Binder::UnknownKey(NodeId word, const Command* row) {
 void Binder::BindPoint(NodeId id, const PointKeyRow& row, const std::vector<NodeId>& values) {
   const int count = static_cast<int>(values.size());
   if (row.kind == PointKey::kDot) {
-    return Error(Code::kNotYet, SpanOf(id), "dots need a photograph, which is not there yet",
-                 "part of the language, but not of this version");
+    const Scope* const owner = CommandScope();
+    if (!owner || !owner->command->dots) {
+      return Error(Code::kNotYet, SpanOf(id), "dots draw on no facade yet",
+                   "part of the language, but not of this version", "a dot belongs to a `trace`");
+    }
   }
   if (count < row.least || count > row.most) {
     return Error(Code::kWrongCount, SpanOf(id),

@@ -249,7 +249,7 @@ void Binder::LogicInto(std::uint32_t target, NodeId id) {
   };
   side(leftmost);
   for (NodeId at : spine) {
-    const std::uint32_t jump = Emit({Op::kJumpIfFalse, 0, 0, 0, target, 0}, SpanOf(at));
+    const std::uint32_t jump = Emit({Op::kJumpIfFalse, kOnlyAValue, 0, 0, target, 0}, SpanOf(at));
     if (is_and) {
       to_end.push_back(jump);
     } else {
@@ -500,6 +500,10 @@ void Binder::NameInto(std::uint32_t target, NodeId id) {
       Emit({Op::kMove, 0, 0, target, AddConstant(Value::Number(geom::kPi)), 0}, SpanOf(id));
       return;
     }
+    if (HasWord(whole_words_, name)) {
+      Emit({Op::kMove, 0, 0, target, AddConstant(Value::Number(1)), 0}, SpanOf(id));
+      return;
+    }
     const auto meant = DidYouMean(name, VisibleNames());
     Error(Code::kUnknownName, SpanOf(id), "there is no `" + Printable(name) + "` here", "",
           meant ? "did you mean `" + *meant + "`?"
@@ -575,6 +579,7 @@ Operand Binder::ConvertedOperand(Operand operand, Type type, bool list, std::str
 Operand Binder::TypedWord(NodeId value, std::string_view words, std::string_view name) {
   if (KindOf(value) == NodeKind::kName) {
     const std::string word = Text(value);
+    if (words.empty()) return AddText(word);  // an open word: a name that this declares
     for (const std::string& known : SplitWords(words)) {
       if (LowerCase(word) == LowerCase(known)) return AddText(known);
     }
@@ -596,6 +601,19 @@ Operand Binder::Typed(const std::vector<NodeId>& values, Type type, bool list,
   const bool gathers = list || type == Type::kPoint || type == Type::kScale ||
                        type == Type::kSize || type == Type::kElements || type == Type::kPoints;
   if (type == Type::kWord && values.size() == 1 && !list) return TypedWord(values[0], words, name);
+  // A number that may also be said by a word; within an expression the word is the whole, 1.
+  if (!words.empty() && values.size() == 1 && KindOf(values[0]) == NodeKind::kName &&
+      HasWord(words, Text(values[0]))) {
+    return AddText(LowerCase(Text(values[0])));
+  }
+  const auto whole_words = std::exchange(whole_words_, words);
+  const auto bound = TypedValues(values, type, list, name, whole, gathers);
+  whole_words_ = whole_words;
+  return bound;
+}
+
+Operand Binder::TypedValues(const std::vector<NodeId>& values, Type type, bool list,
+                            std::string_view name, NodeId whole, bool gathers) {
   if (!gathers && values.size() != 1) {
     Span span = SpanOf(values[1]);
     span.end = SpanOf(values.back()).end;

@@ -461,23 +461,23 @@ void Binder::BindUnknown(NodeId id) {
   program_->unknowns.push_back({Text(kids[0]), SpanOf(kids[0])});
   const auto number = static_cast<std::uint32_t>(program_->unknowns.size() - 1);
   if (KindOf(start) == NodeKind::kName && Text(start) == "free" && !Find("free")) {
-    Error(Code::kNotYet, SpanOf(start),
-          "an unknown without a start needs `calibrate`, which is not there yet", "",
-          "give it a start: `unknown " + Text(kids[0]) + " = 4m`");
+    program_->unknowns[number].is_free = true;
+    Emit({Op::kMove, 0, 0, reg, AddConstant(Value::Number(1)), 0}, SpanOf(start));
   } else {
     ExpressionInto(reg, start);
-    if (typed) {
-      Emit({Op::kConvert, static_cast<std::uint8_t>(type), scope_->measure, reg, reg,
-            AddText(Text(kids[0]))},
-           SpanOf(start));
-    }
-    if (at + 1 < kids.size()) {
-      const Operand range = Expression(tree()[kids[at + 1]].first_child);
-      Emit({Op::kCheckRange, 0, scope_->measure, reg, range, AddText(Text(kids[0]))},
-           SpanOf(start));
-    }
-    Emit({Op::kUnknown, 0, 0, reg, reg, number}, SpanOf(kids[0]));
   }
+  if (typed) {
+    Emit({Op::kConvert, static_cast<std::uint8_t>(type), scope_->measure, reg, reg,
+          AddText(Text(kids[0]))},
+         SpanOf(start));
+  }
+  if (at + 1 < kids.size()) {
+    const std::uint32_t range = NewRegister();
+    ExpressionInto(range, tree()[kids[at + 1]].first_child);
+    Emit({Op::kCheckRange, 0, scope_->measure, reg, range, AddText(Text(kids[0]))}, SpanOf(start));
+    program_->unknowns[number].range = range;
+  }
+  Emit({Op::kUnknown, 0, 0, reg, reg, number}, SpanOf(kids[0]));
   Declare(Text(kids[0]), {.unit = builder_->id, .index = reg, .dimension = StaticDimension(start)},
           SpanOf(kids[0]));
 }

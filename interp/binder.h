@@ -131,6 +131,8 @@ class Binder {
   // The values of a key as one operand of the declared type.
   Operand Typed(const std::vector<NodeId>& values, Type type, bool list, std::string_view words,
                 std::string_view name, NodeId whole);
+  Operand TypedValues(const std::vector<NodeId>& values, Type type, bool list,
+                      std::string_view name, NodeId whole, bool gathers);
   Operand TypedWord(NodeId value, std::string_view words, std::string_view name);
   Operand ConvertedOperand(Operand operand, Type type, bool list, std::string_view name, Span span);
 
@@ -185,6 +187,7 @@ class Binder {
   std::deque<SyntaxTree> used_trees_;
   bool in_used_file_ = false;
   bool at_top_ = true;
+  std::string_view whole_words_;  // words that stand for 1 in the key being bound: `centre`
   bool in_definition_ = false;
   int depth_ = 0;  // of the expression being bound
   std::set<std::string> declared_parameters_;

@@ -4,6 +4,7 @@
 // binding and the engine read it there.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -11,6 +12,7 @@
 #include <vector>
 
 #include "interp/diagnostic.h"
+#include "interp/host.h"
 #include "interp/type.h"
 #include "model/edit.h"
 #include "model/state.h"
@@ -96,6 +98,19 @@ struct Fired {
 };
 using CommandResult = tl::expected<Fired, CommandError>;
 
+// What a few commands need beside the state.
+struct Source;
+struct PhotographFile {
+  model::Hash128 content;
+  Eigen::Vector2i size_px;
+};
+using PhotographFiles = std::map<std::string, PhotographFile>;  // read so far, by path
+struct Surroundings {
+  const Host& host;                    // to read a photograph
+  const std::vector<Source>& sources;  // of deviations
+  PhotographFiles& photographs;
+};
+
 // undo, redo and mark work on the run's history, not on one state.
 enum class HistoryStep : std::uint8_t { kNone, kUndo, kRedo, kMark };
 
@@ -114,8 +129,17 @@ struct Command {
   std::string_view asks = {};        // a name it asks for in bare words: "level"
   std::string_view string_key = {};  // the key that a bare string stands for: "file"
   std::span<const Example> examples = {};
-  CommandResult (*execute)(const model::State&, const Answers&) = nullptr;  // null: E0001
+  CommandResult (*execute)(const model::State&, const Answers&) = nullptr;
   HistoryStep history = HistoryStep::kNone;
+  // In place of `execute`, where a command needs more than the state.
+  CommandResult (*execute_with)(const model::State&, const Answers&, const Surroundings&) = nullptr;
+  bool dots = false;        // its data points are dots of the photograph
+  bool calibrates = false;  // solves for the unknowns before it; stands once, at the top
+
+  // Whether this version carries it out; else it gives E0001.
+  bool exists() const {
+    return execute || execute_with || calibrates || history != HistoryStep::kNone;
+  }
 };
 
 // Every command there is, those of later versions included, grouped by family.

@@ -23,6 +23,8 @@ inline Code CodeOf(geom::ErrorCode code) {
       return Code::kOutOfRange;
     case geom::ErrorCode::kTooLarge:
       return Code::kTooManyFacets;
+    case geom::ErrorCode::kUnreadable:
+      return Code::kNoPhotograph;
   }
   return Code::kDegenerate;
 }

@@ -38,8 +38,13 @@ bool FastCompare(Op op, double a, double b) {
 }  // namespace
 
 Machine::Machine(const Program& program, const RunOptions& options, const Host& host)
-    : program_(program), options_(options), host_(host), budget_(options.limits) {
+    : program_(program),
+      options_(options),
+      outer_host_(host),
+      host_{host.read, [this](std::string_view line) { Print(line); }},
+      budget_(options.limits) {
   if (options.on_progress) budget_.on_progress = &options.on_progress;
+  unsolved_ = program.calibrates;
   innermost_.resize(program.units.size());
   places_.resize(program.scopes.size());
 }
@@ -55,6 +60,13 @@ StageLinks Machine::LinksFor(bool is_script) {
           [this](const Placement& placement, const model::State& state) {
             return Place(placement, state);
           },
+          [this](const Answers& answers, const model::State& state, Span span) {
+            return Calibrate(answers, state, span);
+          },
+          &sources_,
+          photographs_.get(),
+          unsolved_ ? &trail_ : nullptr,
+          stages_made_++,
           &turns_,
           &turn_values_};
 }
@@ -75,10 +87,25 @@ Outcome Machine::Run() {
                               "",
                               "--limit memory=N raises it"});
   }
+  PrintHeld();
   outcome_.state = stage.state();
   outcome_.steps = options_.limits.steps - budget_.steps_left;
   for (const auto& [name, reg] : program_.lets) outcome_.lets.emplace_back(name, registers[reg]);
   return std::move(outcome_);
+}
+
+// What is said before `calibrate` is said once, with the solved values.
+void Machine::Print(std::string_view line) {
+  if (unsolved_) {
+    held_.emplace_back(line);
+  } else if (outer_host_.print) {
+    outer_host_.print(line);
+  }
+}
+
+void Machine::PrintHeld() {
+  unsolved_ = false;
+  for (const std::string& line : std::exchange(held_, {})) Print(line);
 }
 
 void Machine::Throw(const OpFailure& failure, Span span, const CodeUnit* unit,
@@ -184,6 +211,7 @@ Value Machine::Execute(std::uint32_t unit_id, Value* r, std::uint32_t from, Stag
             Fail(Code::kNotBoolean, unit.spans[at], "the condition is " + Describe(condition),
                  "expected true or false");
           }
+          if (program_.calibrates && !(i.flags & kOnlyAValue)) Decide(condition, unit.spans[at]);
           if (!condition.boolean()) {
             at = i.a;
             continue;
@@ -281,7 +309,8 @@ Value Machine::CallClosure(const Value& closure, std::span<const Value> argument
                                            " value, and is given " +
                                            std::to_string(arguments.size())};
   }
-  if (code.stage == stage_) return CallUnit(code.unit, arguments, closure.closure().captured, span);
+  if (code.stage == stage_->serial())
+    return CallUnit(code.unit, arguments, closure.closure().captured, span);
   std::vector<Value> captured;
   for (const Value& value : closure.closure().captured) captured.push_back(Detached(value, span));
   return CallUnit(code.unit, arguments, captured, span);
@@ -290,6 +319,13 @@ Value Machine::CallClosure(const Value& closure, std::span<const Value> argument
 void Machine::PointEffect(const Instruction& i, const CodeUnit& unit, const Value* r, Stage* stage,
                           Span span) {
   const auto kind = static_cast<PointKey>(i.flags & ~kPackedPoint);
+  if (unsolved_ && stage->picks()) {
+    const std::uint32_t count = i.flags & kPackedPoint ? 1 : i.c;
+    for (std::uint32_t n = 0; n < count; ++n) {
+      RefuseUnknown(i.flags & kPackedPoint ? Get(i.b, r, unit.constants.data()) : r[i.b + n], span,
+                    "a pick");
+    }
+  }
   if (i.flags & kPackedPoint) {
     const Value& value = Get(i.b, r, unit.constants.data());
     if (kind != PointKey::kOn) return stage->Point(kind, value, span);

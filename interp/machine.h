@@ -8,9 +8,11 @@
 #include <unordered_map>
 #include <vector>
 
+#include "camera/estimate.h"
 #include "interp/functions.h"
 #include "interp/run.h"
 #include "interp/stage.h"
+#include "interp/traced.h"
 
 namespace tranos::interp {
 
@@ -39,7 +41,7 @@ class Machine {
   };
   struct ClosureCode {
     std::uint32_t unit;
-    const Stage* stage;    // where it was made
+    std::uint64_t stage;   // where it was made
     std::uint64_t serial;  // tells function values of a run apart
   };
 
@@ -75,6 +77,34 @@ class Machine {
   model::Hash128 KeyOf(const Definition& definition, const Registers& registers, Span span);
   const std::vector<std::pair<std::uint32_t, std::uint32_t>>& OuterOf(std::uint32_t unit);
 
+  // Photographs and unknowns (calibration.cpp).
+  struct Trial;
+  class TrialRun;
+  class Evaluation;
+  // Something that the adjustment may solve for: an unknown, or the error of a `+-` literal.
+  struct Solvable {
+    camera::Unknown unknown;
+    bool taken_by_unknown = false;  // a literal that says what is known of an unknown
+  };
+  Fired Calibrate(const Answers& answers, const model::State& state, Span span);
+  [[noreturn]] void FailCalibration(const geom::Error& error, const Traced& traced,
+                                    Span span) const;
+  Fired Calibrated(std::vector<camera::Estimate> found, const Evaluation& evaluation,
+                   const Traced& traced, const Eigen::VectorXd& solved, const Host& silent,
+                   const model::State& before, Span span);
+  void Warn(const camera::Estimate& estimate, const model::Element& photograph,
+            const std::vector<model::ElementId>& trace_ids, Span span);
+  model::Edit Adopt(TrialRun& solved, const model::State& before);
+  void CheckTrail(const Trail& solved) const;
+  model::Value UnknownValue(const UnknownInfo& info, const model::Value& start,
+                            const model::Value* registers, Span span);
+  model::Value WithError(model::Value number);
+  bool DependsOnUnknown(const model::Value& value) const;
+  void RefuseUnknown(const model::Value& value, Span span, std::string_view as) const;
+  void Decide(const model::Value& condition, Span span);
+  void Print(std::string_view line);
+  void PrintHeld();
+
   CallContext ContextOf(const Instruction& i, Span span);
   StageLinks LinksFor(bool is_script);
   [[noreturn]] void Throw(const OpFailure& failure, Span span, const CodeUnit* unit,
@@ -82,7 +112,9 @@ class Machine {
 
   const Program& program_;
   const RunOptions& options_;
-  const Host& host_;
+  const Host& outer_host_;
+  Host host_;                      // which holds back what is printed before `calibrate`
+  std::vector<std::string> held_;  // those lines
   Budget budget_;
   Outcome outcome_;
   SourceList sources_;
@@ -92,6 +124,12 @@ class Machine {
   std::vector<std::uint32_t> turns_;
   std::vector<const model::Value*> turn_values_;  // the variables of the loops that are open
   std::uint64_t closures_made_ = 0;
+  bool unsolved_ = false;         // `calibrate` stands in the script and is still to come
+  const Trial* trial_ = nullptr;  // the values of the unknowns that this run tries, or none
+  Trail trail_;
+  std::vector<Solvable> solvables_;  // what can be solved for, as it was met
+  std::uint64_t stages_made_ = 0;
+  std::shared_ptr<PhotographFiles> photographs_ = std::make_shared<PhotographFiles>();
   int call_depth_ = 0;
   int definition_depth_ = 0;
   Stage* stage_ = nullptr;  // of the code that runs

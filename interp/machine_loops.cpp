@@ -17,6 +17,9 @@ bool Machine::BeginCount(const Instruction& i, Value* r, Span span) {
     Fail(Code::kBadLoop, span, "a loop counts over numbers, not over " + Describe(wrong), "",
          "for x in LIST goes through a list");
   }
+  if (unsolved_) {
+    for (const Value* bound : {&from, &to, &step}) RefuseUnknown(*bound, span, "a loop's bound");
+  }
   const Unit& unit = program_.measures[i.n];
   if (step.is_none()) step = Value::Number(BareFactor(from.dimension(), unit), from.dimension());
   if (!Align(&from, &to, unit) || !Align(&from, &step, unit) || !Align(&from, &to, unit)) {
@@ -31,6 +34,7 @@ bool Machine::BeginCount(const Instruction& i, Value* r, Span span) {
   to = Value::Number(turns);
   step = Value::Number(step.number());
   r[i.a + 3] = Value::Number(0);
+  if (unsolved_) trail_.push_back({span, static_cast<std::uint32_t>(std::max(turns + 1, 0.0))});
   if (turns < 0) return false;
   budget_.ChargeSteps(1, span);
   turns_.push_back(0);

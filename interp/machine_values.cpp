@@ -121,7 +121,7 @@ void Machine::Compute(const Instruction& i, const CodeUnit& unit, Value* r, Span
       break;
     case Op::kPlusMinus:
       budget_.ChargeSteps(DeviationSteps(b()), span);
-      r[i.a] = PlusMinus(b(), c(), i.flags & 1, {&measure, &sources_});
+      r[i.a] = WithError(PlusMinus(b(), c(), i.flags & 1, {&measure, &sources_}));
       break;
     case Op::kMakeList: {
       budget_.ChargeSteps(i.c, span);
@@ -146,9 +146,13 @@ void Machine::Compute(const Instruction& i, const CodeUnit& unit, Value* r, Span
       r[i.a] = Member(ContextOf(i, span), b(), c().string());
       break;
     case Op::kIndex:
+      if (unsolved_) RefuseUnknown(c(), span, "an index");
       r[i.a] = IndexInto(b(), c());
       break;
     case Op::kConvert:
+      if (unsolved_ && static_cast<Type>(i.flags) == Type::kCount) {
+        RefuseUnknown(b(), span, "a count");
+      }
       r[i.a] = Convert(b(), static_cast<Type>(i.flags), measure, c().string());
       break;
     case Op::kConvertList: {
@@ -178,7 +182,7 @@ void Machine::Compute(const Instruction& i, const CodeUnit& unit, Value* r, Span
     case Op::kMakeClosure: {
       auto closure = std::make_shared<ClosureCode>();
       closure->unit = i.b;
-      closure->stage = stage_;
+      closure->stage = stage_->serial();
       closure->serial = ++closures_made_;
       const std::uint32_t captured = program_.units[i.b].captured;
       r[i.a] = Value::OfClosure({std::move(closure), {r + i.c, r + i.c + captured}});
@@ -226,19 +230,14 @@ void Machine::Compute(const Instruction& i, const CodeUnit& unit, Value* r, Span
       CheckRange(i, unit, r, span);
       break;
     case Op::kUnknown: {
-      const UnknownInfo& unknown = program_.unknowns[i.c];
-      if (!b().is_number())
-        Fail(Code::kWrongType, span, "an unknown is a number, not " + Describe(b()));
-      outcome_.diagnostics.Add(
-          {Code::kUnknownUnsolved, span,
-           "`" + unknown.name + "` keeps its start, " + Format(b(), measure, -1), "",
-           "`calibrate` would solve for it"});
-      r[i.a] = b();
+      r[i.a] = UnknownValue(program_.unknowns[i.c], b(), r, span);
       break;
     }
     default:
       budget_.ChargeSteps(DeviationSteps(b()) + DeviationSteps(c()), span);
+      const bool from_unknown = unsolved_ && (DependsOnUnknown(b()) || DependsOnUnknown(c()));
       r[i.a] = Binary(i.op, b(), c(), {&measure, &sources_});
+      if (from_unknown && r[i.a].is_boolean()) r[i.a] = Value::Boolean(r[i.a].boolean(), true);
       break;
   }
 }

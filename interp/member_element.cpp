@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 
+#include "interp/camera_report.h"
 #include "interp/value_support.h"
 
 namespace tranos::interp {
@@ -231,6 +232,17 @@ std::optional<Value> PlaceMember(const geom::Vec3& position, std::string_view na
   return std::nullopt;
 }
 
+std::optional<Value> TraceMember(const model::Trace& trace, std::string_view name) {
+  if (name == "noise") return Value::Number(trace.noise_px, model::kPixel);
+  if (name != "dots") return std::nullopt;
+  std::vector<Value> dots;
+  for (const geom::Vec2& dot : trace.dots_px) {
+    dots.push_back(Value::List(
+        {Value::Number(dot.x(), model::kPixel), Value::Number(dot.y(), model::kPixel)}));
+  }
+  return Value::List(std::move(dots));
+}
+
 // What only this kind of element has.
 std::optional<Value> OwnMember(const CallContext& context, const Element& element,
                                std::string_view name) {
@@ -243,6 +255,12 @@ std::optional<Value> OwnMember(const CallContext& context, const Element& elemen
     if (name == "height") return Length((*text)->height_m);
     if (name == "plane") return Value::Plane((*text)->frame);
     return PlaceMember((*text)->frame.origin, name);
+  }
+  if (const auto* photograph = std::get_if<model::PhotographPtr>(&element.geometry)) {
+    return PhotographMember(**photograph, name);
+  }
+  if (const auto* trace = std::get_if<model::TracePtr>(&element.geometry)) {
+    return TraceMember(**trace, name);
   }
   if (const auto* group = std::get_if<model::GroupPtr>(&element.geometry)) {
     return GroupMember(context, element, **group, name);
@@ -260,6 +278,8 @@ std::vector<std::string> OwnMembers(const Element& element) {
   if (std::holds_alternative<model::TextPtr>(element.geometry)) {
     return {"text", "height", "plane", "position", "x", "y", "z"};
   }
+  if (std::holds_alternative<model::PhotographPtr>(element.geometry)) return PhotographMembers();
+  if (std::holds_alternative<model::TracePtr>(element.geometry)) return {"dots", "noise"};
   std::vector<std::string> names;
   if (const auto* group = std::get_if<model::GroupPtr>(&element.geometry)) {
     for (const model::NamedElements& named : (*group)->names) names.push_back(named.name);

@@ -159,6 +159,7 @@ class Search {
   }
 
   void Consider(const ElementPtr& element) {
+    if (!model::IsBuilt(*element)) return;
     if (IsComposite(*element)) return Wait(element, VisibleBox(*element));
     if (!IsOn(*element->attributes)) return;
     if (const auto* point = std::get_if<model::Point>(&element->geometry)) {

@@ -100,6 +100,8 @@ struct Instruction {
   std::uint32_t a = 0, b = 0, c = 0;
 };
 
+// In a kJumpIfFalse's flags: of `and` and `or`, which choose a value and no branch.
+inline constexpr std::uint8_t kOnlyAValue = 1;
 // In a kPoint's flags: operand b is the whole point, and not the first of c registers.
 inline constexpr std::uint8_t kPackedPoint = 0x80;
 
@@ -199,6 +201,9 @@ struct AssertInfo {
 struct UnknownInfo {
   std::string name;
   Span span;
+  bool is_free = false;            // it has no start of its own
+  std::uint32_t range = kNoRange;  // the register of its bounds
+  static constexpr std::uint32_t kNoRange = 0xffffffff;
 };
 
 struct Program {
@@ -211,6 +216,7 @@ struct Program {
   std::vector<std::int32_t> row_definition;  // index into definitions, or -1
   std::vector<AssertInfo> asserts;
   std::vector<UnknownInfo> unknowns;
+  bool calibrates = false;                                  // `calibrate` stands in it
   std::vector<DefinedParameter> parameters;                 // of the script
   std::vector<std::pair<std::string, std::uint32_t>> lets;  // registers of the script's own names
   std::uint32_t hypotheses_matched = 0;

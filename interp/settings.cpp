@@ -27,8 +27,8 @@ constexpr SettingRow kSettings[] = {
     {"lt", SettingKey::kLocate, Type::kLength, "", "locate tolerance of picks", "1cm"},
     {"un", SettingKey::kUnit, Type::kAny, "", "working unit of bare numbers in the text after it",
      "m"},
-    {"noise", SettingKey::kNoise, Type::kPixel, "", "standard deviation of a dot's coordinates",
-     "0.5px"},
+    {"noise", SettingKey::kNoise, Type::kPixel, "estimated",
+     "standard deviation of a dot's coordinates; estimated: from the residuals", "0.5px"},
 };
 
 constexpr PointKeyRow kPointKeys[] = {

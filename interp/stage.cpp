@@ -232,8 +232,9 @@ void Stage::Point(PointKey kind, const Value& values, Span span) {
       return TakePoint(last + view.ToWorld(v) - view.origin, span);
     }
     case PointKey::kDot:
+      return TakePoint({v.x(), v.y(), 0}, span, true);
     case PointKey::kOn:
-      break;  // a dot is not bound; `on=` comes through On
+      break;  // comes through On
   }
 }
 
@@ -253,14 +254,20 @@ void Stage::On(const model::Interface& interface, Span span) {
   active_.measures.clear();
 }
 
-void Stage::TakePoint(const Vec3& point, Span span) {
+void Stage::TakePoint(const Vec3& point, Span span, bool is_dot) {
   if (!point.allFinite()) Fail(Code::kNotFinite, span, "the data point is not finite");
   if (!active_.row) {
     Fail(Code::kNoCommand, span, "there is no active command to take this data point", "",
          "start a command first, such as `place line`");
   }
+  if (active_.row->dots != is_dot) {
+    Fail(Code::kNoCommand, span,
+         "`" + std::string(active_.row->words) + "` takes " +
+             (is_dot ? "no dots" : "dots of the photograph, not points of the world"),
+         is_dot ? "" : "expected dot=u,v");
+  }
   links_.budget->ChargeSteps(1, span);
-  state_.drawing.last_point = point;
+  if (!is_dot) state_.drawing.last_point = point;
   switch (active_.row->manner) {
     case Manner::kImmediate:
       Fail(Code::kNoCommand, span,
@@ -387,7 +394,7 @@ void Stage::Set(const SettingRow& row, const Value& value, Span span) {
       settings->unit = value.string();
       break;
     case SettingKey::kNoise:
-      settings->noise_px = positive(value.number());
+      settings->noise_px = value.is_string() ? 0 : positive(value.number());
       break;
   }
   links_.budget->ChargeSteps(1, span);

@@ -45,6 +45,14 @@ struct Placement {
   std::vector<std::pair<std::string, model::Value>> measures;  // of the interface it is placed on
 };
 
+// What was decided on the way to `calibrate`: the element that a pick took, the way a condition
+// went, the turns of a loop. It must be the same for all values of the unknowns.
+struct Decision {
+  Span span;
+  std::uint32_t what;
+};
+using Trail = std::vector<Decision>;
+
 // What a stage needs of the run around it.
 struct StageLinks {
   const Program* program;
@@ -55,6 +63,12 @@ struct StageLinks {
   std::vector<model::OutputRequest>* outputs;  // null for a definition's body
   std::vector<Span>* output_spans;             // likewise
   std::function<model::ElementPtr(const Placement&, const model::State&)> place;
+  // Solves for the camera and the unknowns; what changes by it.
+  std::function<Fired(const Answers&, const model::State&, Span)> calibrate;
+  const SourceList* sources;
+  PhotographFiles* photographs;
+  Trail* trail;          // null where nothing is solved for
+  std::uint64_t serial;  // tells the stages of a run apart
   const std::vector<std::uint32_t>* turns;
   const std::vector<const model::Value*>* turn_values;  // the loops' variables
 };
@@ -84,10 +98,19 @@ class Stage {
   // `as`: from is where this turn's elements begin, in a loop.
   void Name(const std::string& name, std::uint32_t index, bool in_turn, std::size_t from,
             Span span);
+  // Where each trace was keyed in.
+  const std::unordered_map<model::ElementId, Span>& trace_spans() const { return trace_spans_; }
   // The names of the innermost group (0 out), of the one around it, … of the script or definition.
   const model::Names& NamesOut(std::size_t groups_out) const;
 
   const model::State& state() const { return state_; }
+  std::uint64_t serial() const { return links_.serial; }
+  // Whether the active command takes data points as picks.
+  bool picks() const {
+    return active_.row &&
+           (active_.row->manner == Manner::kPicks || active_.row->manner == Manner::kEdits ||
+            active_.row->manner == Manner::kChooses);
+  }
   std::size_t groups() const { return groups_.size(); }
   // What the names of the scope stand for, as a group or prototype keeps them.
   std::vector<model::NamedElements> NamesOf(std::uint32_t scope) const;
@@ -133,7 +156,7 @@ class Stage {
     model::State before;
     bool touches_outside = false;  // it changed elements that stood before it
   };
-  void TakePoint(const geom::Vec3& point, Span span);
+  void TakePoint(const geom::Vec3& point, Span span, bool is_dot = false);
   void AnswerPrompt(const geom::Vec3& point, Span span);
   void PickOrAccept(const geom::Vec3& point, Span span);
   bool PromptsAnswered() const;
@@ -154,6 +177,7 @@ class Stage {
   void GuardChanges(model::Edit* edit) const;
   void FirePlacement(Span span);
   void FireHistory(Span span);
+  Fired Execute(const Command& row, const Answers& answers, Span span) const;
   void AskAgain();
   void CheckRequired(Span span) const;
   void CheckUnused() const;
@@ -186,6 +210,7 @@ class Stage {
   std::size_t history_base_ = 0;
   std::size_t ids_given_ = 0;  // an id is given once in a run, that of an undone element too
   std::vector<std::pair<std::string, std::size_t>> marks_;
+  std::unordered_map<model::ElementId, Span> trace_spans_;
   std::string key_in_;  // text of the key-in being carried out, when steps are told
 };
 

@@ -113,6 +113,7 @@ void Stage::PickOrAccept(const Vec3& point, Span span) {
                              "pick at another place, or give `of=NAME`"});
   }
   const ElementId id = pick.element->id;
+  if (links_.trail) links_.trail->push_back({span, id});
   ++active_.begun;
   const model::Selection& selection = state_.drawing.selection;
   const bool chosen = active_.firings == 0 && selection.Contains(id);
@@ -185,30 +186,47 @@ void Stage::Fire(Span span) {
     Fail(Code::kNothingChosen, active_.span,
          "nothing is chosen for `" + std::string(row.words) + "`", "", std::string(kChooseHelp));
   }
-  CommandResult result = row.execute(state_, answers);
-  if (!result) throw RunFailure{MakeDiagnostic(result.error())};
-  GuardChanges(&result->edit);
-  for (const CommandError& warning : result->warnings)
+  Fired fired = Execute(row, answers, span);
+  GuardChanges(&fired.edit);
+  for (const CommandError& warning : fired.warnings)
     links_.diagnostics->Add(MakeDiagnostic(warning));
-  for (const std::string& line : result->messages) {
+  for (const std::string& line : fired.messages) {
     if (links_.host->print) links_.host->print(line);
   }
-  if (!links_.outputs && !result->edit.outputs.empty()) {
+  if (!links_.outputs && !fired.edit.outputs.empty()) {
     Fail(Code::kMisplaced, active_.span, "a definition's body draws no picture and writes no file",
          "", "`" + std::string(active_.row->words) + "` stands in the script");
   }
   if (links_.outputs) {
     const Span named = SpanOf({Where::kKey, 0, "file"});
-    for (model::OutputRequest& output : result->edit.outputs) {
+    for (model::OutputRequest& output : fired.edit.outputs) {
       links_.outputs->push_back(output);
       links_.output_spans->push_back(named);
     }
   }
-  links_.budget->ChargeElements(result->edit.added.size(), span);
+  if (links_.trail && fired.edit.selection && row.family == "choose") {
+    for (const ElementId id : *fired.edit.selection) links_.trail->push_back({span, id});
+  }
+  links_.budget->ChargeElements(fired.edit.added.size(), span);
   TakeIds();
-  if (result->edit.ChangesModel()) history_.push_back(state_);
-  Commit(result->edit, span);
+  if (fired.edit.ChangesModel()) history_.push_back(state_);
+  if (row.dots) trace_spans_[static_cast<ElementId>(state_.model.entries.size())] = active_.span;
+  Commit(fired.edit, span);
+  if (row.calibrates) {  // what it stands on cannot be undone
+    history_base_ = history_.size();
+    undone_.clear();
+  }
   AskAgain();
+}
+
+Fired Stage::Execute(const Command& row, const Answers& answers, Span span) const {
+  if (row.calibrates) return links_.calibrate(answers, state_, span);
+  CommandResult result =
+      row.execute_with
+          ? row.execute_with(state_, answers, {*links_.host, *links_.sources, *links_.photographs})
+          : row.execute(state_, answers);
+  if (!result) throw RunFailure{MakeDiagnostic(result.error())};
+  return *std::move(result);
 }
 
 void Stage::FirePlacement(Span span) {
@@ -449,6 +467,7 @@ void Stage::RestoreModel(const model::State& earlier) {
   state_.drawing.names = earlier.drawing.names;
   state_.drawing.last = earlier.drawing.last;
   state_.drawing.selection = earlier.drawing.selection;
+  state_.drawing.photograph = earlier.drawing.photograph;
 }
 
 // The ids of elements that were undone stay taken. To be called before the state becomes history,

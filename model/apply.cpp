@@ -176,6 +176,7 @@ class Application {
     if (edit_.settings) drawing.settings = *edit_.settings;
     if (edit_.view) drawing.view = std::make_shared<const View>(*edit_.view);
     if (edit_.last_point) drawing.last_point = *edit_.last_point;
+    if (edit_.photograph) drawing.photograph = Resolved(*edit_.photograph);
     if (edit_.hidden_levels) {
       state_.model.hidden_levels =
           std::make_shared<const std::vector<std::string>>(*edit_.hidden_levels);
@@ -188,12 +189,12 @@ class Application {
                        [&](ElementId id) { return selection.Contains(id); });
   }
   Selection Resolved(const Selection& selection) {
-    const auto first_added = static_cast<ElementId>(first_added_);
     std::vector<ElementId> ids(selection.begin(), selection.end());
-    for (ElementId& id : ids) {
-      if (id >= kAddedBase) id = id - kAddedBase + first_added;
-    }
+    for (ElementId& id : ids) id = Resolved(id);
     return ids;
+  }
+  ElementId Resolved(ElementId id) const {
+    return id < kAddedBase ? id : id - kAddedBase + static_cast<ElementId>(first_added_);
   }
   Selection StillInModel(const Selection& selection) {
     const auto stands = [&](ElementId id) { return state_.model.InModel(id); };

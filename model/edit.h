@@ -37,7 +37,8 @@ struct Edit {
   std::optional<View> view;
   std::optional<std::vector<std::string>> hidden_levels;
   std::optional<geom::Vec3> last_point;
-  std::vector<OutputRequest> outputs;  // no part of the state: app runs them after the script
+  std::optional<ElementId> photograph;  // the one that traces go to; kAddedBase + i as above
+  std::vector<OutputRequest> outputs;   // no part of the state: app runs them after the script
 
   bool ChangesModel() const {
     return !added.empty() || !replaced.empty() || !consumed.empty() || !deleted.empty() ||

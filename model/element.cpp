@@ -25,6 +25,8 @@ enum Tag : std::uint8_t {
   kInstance,
   kPrototype,
   kOwn,
+  kPhotograph,
+  kTrace,
 };
 
 void AddCount(Hasher& hasher, std::size_t count) {
@@ -115,6 +117,11 @@ void Add(Hasher& hasher, const InstancePtr& instance) {
   hasher.Point(world_from_prototype.translation());
 }
 
+void Add(Hasher& hasher, const PhotographPtr& photograph) {
+  AddToHash(hasher.Tag(kPhotograph), *photograph);
+}
+void Add(Hasher& hasher, const TracePtr& trace) { AddToHash(hasher.Tag(kTrace), *trace); }
+
 Hash128 HashOf(const Element& element) {
   Hasher hasher;
   std::visit([&](const auto& geometry) { Add(hasher, geometry); }, element.geometry);
@@ -184,6 +191,11 @@ ElementPtr WithAttributes(const Element& element, AttributesPtr attributes) {
   return Hashed(std::move(copy));
 }
 
+bool IsBuilt(const Element& element) {
+  return !std::holds_alternative<PhotographPtr>(element.geometry) &&
+         !std::holds_alternative<TracePtr>(element.geometry);
+}
+
 int DepthOf(const Element& element) {
   if (const auto* group = std::get_if<GroupPtr>(&element.geometry)) return (*group)->depth;
   const auto* instance = std::get_if<InstancePtr>(&element.geometry);
@@ -240,6 +252,10 @@ std::string TypeOf(const Element& element) {
     std::string operator()(const TextPtr&) const { return "text"; }
     std::string operator()(const GroupPtr&) const { return "group"; }
     std::string operator()(const InstancePtr& instance) const { return instance->prototype->words; }
+    std::string operator()(const PhotographPtr& photograph) const {
+      return photograph->file.empty() ? "camera" : "photograph";
+    }
+    std::string operator()(const TracePtr& trace) const { return model::TypeOf(*trace); }
   };
   return std::visit(Type{}, element.geometry);
 }

@@ -16,6 +16,7 @@
 #include "geom/stroke_font.h"
 #include "geom/surface.h"
 #include "model/hash.h"
+#include "model/photograph.h"
 #include "model/value.h"
 
 namespace tranos::model {
@@ -129,7 +130,10 @@ using CurvePtr = std::shared_ptr<const geom::Curve>;
 using SurfacePtr = std::shared_ptr<const geom::Surface>;
 using TextPtr = std::shared_ptr<const geom::Text>;
 using InstancePtr = std::shared_ptr<const Instance>;
-using Geometry = std::variant<Point, CurvePtr, SurfacePtr, TextPtr, GroupPtr, InstancePtr>;
+using PhotographPtr = std::shared_ptr<const Photograph>;
+using TracePtr = std::shared_ptr<const Trace>;
+using Geometry = std::variant<Point, CurvePtr, SurfacePtr, TextPtr, GroupPtr, InstancePtr,
+                              PhotographPtr, TracePtr>;
 
 struct Element {
   ElementId id = kNoElement;
@@ -154,12 +158,15 @@ GroupPtr MapMembers(const Group& group, const std::function<ElementPtr(const Ele
 // Groups member by member; an instance by its transform alone.
 ElementPtr Transformed(const Element& element, const geom::Affine& target_from_source);
 
+// Whether it is a part of what is built: no photograph, camera or trace.
+bool IsBuilt(const Element& element);
+
 // How many groups and placed elements lie in one another, the element included: 0 for one that has
 // no parts.
 int DepthOf(const Element& element);
 
 // "point", "line", "arc", "circle", "line string", "shape", "curve", "chain", "surface", "text",
-// "group", or an instance's words.
+// "group", "photograph", "camera", "trace edge" …, or an instance's words.
 std::string TypeOf(const Element& element);
 
 // Measures. Nothing where the element has none of the kind: a point has no length, an open curve

@@ -39,6 +39,8 @@ Hash128 HashOf(const State& state) {
   hasher.Hash(drawing.selection.HashIn(model.entries)).Hash(drawing.last.HashIn(model.entries));
   hasher.Hash(drawing.names.hash()).Tag(static_cast<std::uint8_t>(drawing.view->mode));
   hasher.Tag(drawing.view->antialias).Tag(drawing.view->shadows).Text(drawing.view->direction);
+  if (const ElementPtr photograph = model.Current(drawing.photograph))
+    hasher.Hash(photograph->hash);
   if (model.hidden_levels) {
     for (const std::string& level : *model.hidden_levels) hasher.Text(level);
   }

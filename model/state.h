@@ -45,7 +45,7 @@ struct Settings {
   double depth_m = 0;                     // az
   geom::Tolerance tolerance;              // tol, fn
   double locate_tolerance_m = 0.01;       // lt
-  double noise_px = 0.5;                  // noise
+  double noise_px = 0.5;                  // noise; 0: estimated from the residuals
   std::string unit = "m";                 // un, for messages
   geom::Frame plane;                      // the active system
 };
@@ -69,6 +69,7 @@ struct Drawing {
   Selection last;  // what the most recent firing that made or changed elements made or changed
   Names names;
   std::shared_ptr<const View> view = std::make_shared<const View>();
+  ElementId photograph = kNoElement;  // the one last attached or set
 };
 
 struct State {

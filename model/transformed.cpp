@@ -28,6 +28,9 @@ struct TransformedGeometry {
     return std::make_shared<const Instance>(
         Instance{instance->prototype, target_from_source * instance->world_from_prototype});
   }
+  // What is on a picture stays there.
+  Geometry operator()(const PhotographPtr& photograph) const { return photograph; }
+  Geometry operator()(const TracePtr& trace) const { return trace; }
 };
 
 }  // namespace

@@ -60,10 +60,11 @@ class Value {
     v.number_ = number;
     return v;
   }
-  static Value Boolean(bool boolean) {
+  // `from_unknown`: it was decided by the value of an unknown.
+  static Value Boolean(bool boolean, bool from_unknown = false) {
     Value v;
     v.kind_ = Kind::kBoolean;
-    v.boolean_ = boolean;
+    v.truth_ = {boolean, from_unknown};
     return v;
   }
   static Value Uncertain(model::Uncertain number, Dimension dimension);
@@ -106,7 +107,8 @@ class Value {
   Dimension dimension() const { return dimension_; }  // of a number or range
   double number() const;                              // of a number, uncertain ones too
   const Derivatives* derivatives() const;             // null for a plain number
-  bool boolean() const { return boolean_; }
+  bool boolean() const { return truth_.is; }
+  bool from_unknown() const { return is_boolean() && truth_.from_unknown; }
   const std::string& string() const;
   const std::vector<Value>& list() const;
   const ValueRange& range() const;
@@ -158,9 +160,13 @@ class Value {
   Kind kind_ = Kind::kNone;
   Dimension dimension_;
   bool holds_elements_ = false;  // of an element, and of a list with one somewhere in it
+  struct Truth {
+    bool is;
+    bool from_unknown;
+  };
   union {
     double number_ = 0;
-    bool boolean_;
+    Truth truth_;
     Heap* heap_;
   };
 };

@@ -66,6 +66,8 @@ struct FacetMaker {
   }
   geom::Result<Facets> operator()(const model::GroupPtr&) const { return Facets{}; }
   geom::Result<Facets> operator()(const model::InstancePtr&) const { return Facets{}; }
+  geom::Result<Facets> operator()(const model::PhotographPtr&) const { return Facets{}; }
+  geom::Result<Facets> operator()(const model::TracePtr&) const { return Facets{}; }
 };
 
 }  // namespace

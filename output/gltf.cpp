@@ -19,6 +19,7 @@ namespace tranos::output {
 namespace {
 
 using geom::Affine;
+using geom::Vec2;
 using geom::Vec3;
 using model::Attributes;
 using model::Element;
@@ -103,6 +104,7 @@ class GlbBuilder {
   int AddLeaf(const Element& leaf, const Vec3& origin, const Attributes& attributes, bool shared);
   int AddGroup(const Element& element, const model::Group& group, const Vec3& origin,
                const Attributes& attributes, bool shared);
+  int AddCamera(const Element& element, const model::Photograph& photograph, const Vec3& origin);
   int AddInstance(const Element& element, const model::Instance& instance, const Vec3& origin,
                   const Attributes& attributes);
   std::vector<int> AddMembers(const std::vector<model::ElementPtr>& members, const Vec3& origin,
@@ -175,6 +177,10 @@ int GlbBuilder::AddElement(const Element& element, const Vec3& origin, const Att
   if (const auto* instance = std::get_if<model::InstancePtr>(&element.geometry)) {
     return AddInstance(element, **instance, origin, attributes);
   }
+  if (const auto* photograph = std::get_if<model::PhotographPtr>(&element.geometry)) {
+    return AddCamera(element, **photograph, origin);
+  }
+  if (!model::IsBuilt(element)) return -1;
   return AddLeaf(element, origin, attributes, shared);
 }
 
@@ -271,6 +277,45 @@ int GlbBuilder::AddInstance(const Element& element, const model::Instance& insta
   Rotate(node, factors.rotation);
   if (factors.scale != Vec3::Ones()) node.scale = ListOf(factors.scale);
   node.children = std::move(children);
+  return AddNode(std::move(node));
+}
+
+// A camera as glTF can hold it, with a centred principal point and no skew; what the photograph's
+// own is stands in the extras: its parameters in millimetres and radians, and the exact matrix
+// from the model to dots.
+int GlbBuilder::AddCamera(const Element& element, const model::Photograph& photograph,
+                          const Vec3& origin) {
+  if (!photograph.estimate || !photograph.estimate->determined()) return -1;
+  using tinygltf::Value;
+  const camera::Camera& camera = photograph.estimate->camera;
+  const Vec2 size_mm = photograph.frame.size_mm;
+  const double fx = camera[camera::kFocal], fy = fx * camera[camera::kAspect];
+  tinygltf::Camera lens;
+  lens.type = "perspective";
+  lens.name = element.name ? *element.name : "camera";
+  lens.perspective.yfov = 2 * std::atan2(size_mm.y() / 2, fy);
+  lens.perspective.aspectRatio = (size_mm.x() / fx) / (size_mm.y() / fy);
+  lens.perspective.znear = 0.01;
+  Value::Object extras;
+  for (int i = 0; i < camera::kParameters; ++i) {
+    extras.emplace(camera::kParameterNames[i], Value(camera.parameters[i]));
+  }
+  Value::Array matrix;
+  const camera::ProjectionMatrix dot_from_world = camera::DotFromWorld(camera, photograph.frame);
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 4; ++column) matrix.emplace_back(dot_from_world(row, column));
+  }
+  extras.emplace("dot_from_world", Value(std::move(matrix)));
+  extras.emplace("photograph", Value(photograph.file));
+  lens.extras = Value(std::move(extras));
+  tinygltf::Node node = NodeOf(element, *element.attributes);
+  node.camera = static_cast<int>(file_.cameras.size());
+  file_.cameras.push_back(std::move(lens));
+  Translate(node, camera.position_m() - origin);
+  // glTF's cameras look along −z, with y up.
+  const Eigen::Matrix3d world_from_camera =
+      camera::CameraFromWorld(camera.parameters).transpose() * Vec3(1, -1, -1).asDiagonal();
+  Rotate(node, world_from_camera);
   return AddNode(std::move(node));
 }
 

@@ -50,6 +50,8 @@ class Skeleton {
     points_.push_back(world.translation());
     for (int i = 0; i < 3; ++i) points_.push_back(world.translation() + world.linear().col(i));
   }
+  void Part(const model::PhotographPtr&) {}
+  void Part(const model::TracePtr&) {}
   void Part(const geom::Line& line) {
     points_.push_back(line.start);
     points_.push_back(line.end);

@@ -40,6 +40,29 @@ class GeometryWriter {
     out_->Close(']');
   }
   void operator()(const model::InstancePtr& instance) { Write(*instance); }
+  void operator()(const model::PhotographPtr& photograph) {
+    const auto& [size_mm, size_px] = photograph->frame;
+    out_->Key("file").String(photograph->file);
+    out_->Key("content").String(model::Hex(photograph->content));
+    out_->Key("size_px").Open('[').Integer(size_px.x()).Integer(size_px.y()).Close(']');
+    out_->Key("size_mm").Open('[').Ratio(size_mm.x()).Ratio(size_mm.y()).Close(']');
+    if (!photograph->estimate) return;
+    out_->Key("camera").Open('[');
+    for (int i = 0; i < camera::kParameters; ++i) {
+      const bool free = photograph->estimate->parameters[i].free();
+      out_->Ratio(free ? std::nan("") : photograph->estimate->camera.parameters[i]);
+    }
+    out_->Close(']');
+  }
+  void operator()(const model::TracePtr& trace) {
+    out_->Key("dots").Open('[');
+    for (const geom::Vec2& dot : trace->dots_px) {
+      out_->Open('[').Ratio(dot.x()).Ratio(dot.y()).Close(']');
+    }
+    out_->Close(']').Key("numbers").Open('[');
+    for (const model::Value& number : trace->numbers) out_->Length(number.number());
+    out_->Close(']');
+  }
   void operator()(const geom::Line& line) {
     out_->Key("start").Point(line.start).Key("end").Point(line.end);
   }

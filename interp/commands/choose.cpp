@@ -103,7 +103,7 @@ std::vector<ElementId> Visible(const State& state, F&& matches) {
 }
 
 Found All(const State& state, const Answers&) {
-  return Visible(state, [](const Element&) { return true; });
+  return Visible(state, [](const Element& element) { return model::IsBuilt(element); });
 }
 
 Found None(const State&, const Answers&) { return std::vector<ElementId>{}; }

@@ -16,8 +16,11 @@ std::span<const Command> ArrayCommands();
 std::span<const Command> EditCommands();  // delete, drop, modify
 std::span<const Command> ConstructCommands();
 std::span<const Command> PlaneCommands();
-std::span<const Command> ViewCommands();    // set view, view, level
-std::span<const Command> OutputCommands();  // render, export, print
+std::span<const Command> ViewCommands();        // set view, view, level
+std::span<const Command> OutputCommands();      // render, export, print
+std::span<const Command> PhotographCommands();  // attach, cameras, priors
+std::span<const Command> TraceCommands();
+std::span<const Command> CalibrateCommands();
 std::span<const Command> HistoryCommands();
 // Those that the language names and that are not carried out yet.
 std::span<const Command> LaterCommands();

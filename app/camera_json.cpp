@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/camera_json.h"
+
+#include <functional>
+#include <nlohmann/json.hpp>
+
+#include "camera/parameter_table.h"
+
+namespace tranos::app {
+
+using camera::Estimate;
+using camera::Parameter;
+using nlohmann::ordered_json;
+
+namespace {
+
+using PerParameter = std::function<ordered_json(Parameter)>;
+
+ordered_json Intrinsics(const PerParameter& of) {
+  return {{"f_mm", of(camera::kFocal)},
+          {"aspect", of(camera::kAspect)},
+          {"principal_mm", {of(camera::kPrincipalX), of(camera::kPrincipalY)}},
+          {"skew_deg", of(camera::kSkew)},
+          {"omega_deg", of(camera::kOmega)},
+          {"phi_deg", of(camera::kPhi)},
+          {"kappa_deg", of(camera::kKappa)}};
+}
+
+ordered_json WithPositions(const PerParameter& of) {
+  ordered_json all = Intrinsics(of);
+  all["x_m"] = of(camera::kX0);
+  all["y_m"] = of(camera::kY0);
+  all["z_m"] = of(camera::kZ0);
+  return all;
+}
+
+ordered_json PoseJson(const PerParameter& of) {
+  ordered_json pose = Intrinsics(of);
+  pose["position_m"] = {of(camera::kX0), of(camera::kY0), of(camera::kZ0)};
+  return pose;
+}
+
+ordered_json CovarianceJson(const Estimate& estimate) {
+  if (estimate.covariance.size() == 0) return nullptr;
+  ordered_json rows = ordered_json::array();
+  for (int i = 0; i < camera::kParameters; ++i) {
+    ordered_json row = ordered_json::array();
+    for (int j = 0; j < camera::kParameters; ++j) {
+      const bool free = estimate.parameters[i].free() || estimate.parameters[j].free();
+      const double unit = camera::kParameterRows[i].per_unit * camera::kParameterRows[j].per_unit;
+      row.push_back(free ? ordered_json(nullptr) : ordered_json(estimate.covariance(i, j) / unit));
+    }
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+ordered_json UnknownsJson(const Estimate& estimate) {
+  ordered_json unknowns = ordered_json::object();
+  for (const camera::UnknownEstimate& unknown : estimate.unknowns) {
+    if (unknown.name.empty()) continue;
+    unknowns[unknown.name] = {{"value", unknown.value},
+                              {"sigma", unknown.determined ? ordered_json(unknown.sigma) : nullptr},
+                              {"determined", unknown.determined},
+                              {"at_bound", unknown.at_bound}};
+  }
+  return unknowns;
+}
+
+}  // namespace
+
+ordered_json CameraJson(const model::Element& element, const model::Photograph& photograph) {
+  const Estimate& estimate = *photograph.estimate;
+  const auto value_of = [&](const camera::Camera& camera) -> PerParameter {
+    return [&](Parameter p) -> ordered_json {
+      if (estimate.parameters[p].free()) return nullptr;
+      return camera[p] / camera::kParameterRows[p].per_unit;
+    };
+  };
+  const bool has_deviations = estimate.covariance.size() > 0;
+  ordered_json json = {{"name", element.name ? ordered_json(*element.name) : nullptr},
+                       {"photograph", photograph.file},
+                       {"size_px", {photograph.frame.size_px.x(), photograph.frame.size_px.y()}},
+                       {"format_mm", {photograph.frame.size_mm.x(), photograph.frame.size_mm.y()}}};
+  json.update(PoseJson(value_of(estimate.camera)));
+  json["sigma"] = WithPositions([&](Parameter p) -> ordered_json {
+    if (estimate.parameters[p].free() || !has_deviations) return nullptr;
+    return estimate.parameters[p].sigma / camera::kParameterRows[p].per_unit;
+  });
+  json["determined"] =
+      WithPositions([&](Parameter p) -> ordered_json { return estimate.parameters[p].determined; });
+  json["from_prior"] =
+      WithPositions([&](Parameter p) -> ordered_json { return estimate.parameters[p].from_prior; });
+  json["covariance"] = CovarianceJson(estimate);
+  json["chi2"] = estimate.chi2;
+  json["dof"] = estimate.dof;
+  json["noise_px"] = estimate.noise_px;
+  json["alternatives"] = ordered_json::array();
+  for (const camera::Alternative& other : estimate.alternatives) {
+    ordered_json alternative = PoseJson(value_of(other.camera));
+    alternative["chi2"] = other.chi2;
+    json["alternatives"].push_back(std::move(alternative));
+  }
+  json["unknowns"] = UnknownsJson(estimate);
+  json["undetermined"] = estimate.undetermined;
+  json["warnings"] = estimate.warnings;
+  if (estimate.facade_homography.isZero(0)) return json;
+  ordered_json homography = ordered_json::array();
+  for (int i = 0; i < 3; ++i) {
+    const auto row = estimate.facade_homography.row(i);
+    homography.push_back({row[0], row[1], row[2]});
+  }
+  json["facade_homography"] = std::move(homography);
+  return json;
+}
+
+}  // namespace tranos::app

@@ -1,0 +1,523 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// `calibrate`: the statements before it are a function of the unknowns, which is evaluated again by
+// running them in a machine of its own, silently, with other values; and once more with the solved
+// ones, whose elements, values and messages then stand.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "camera/calibrate.h"
+#include "camera/dlt.h"
+#include "camera/orthocentre.h"
+#include "camera/paper_method.h"
+#include "camera/sweep.h"
+#include "interp/camera_report.h"
+#include "interp/machine.h"
+#include "interp/traced.h"
+#include "interp/value_support.h"
+
+namespace tranos::interp {
+
+using model::ElementId;
+using model::ElementPtr;
+using model::Value;
+
+// What the sources of a run are given in place of their own.
+struct Machine::Trial {
+  // By the order in which they are met: the value of an unknown, the error of a `+-` literal.
+  std::map<std::size_t, double> values;
+  // In the last run: each unknown's deviations by independent sources that all solved numbers
+  // share.
+  const Eigen::MatrixXd* factor = nullptr;  // a row for each of `rows`
+  std::map<std::size_t, Eigen::Index> rows;
+};
+
+namespace {
+
+// Thrown by a trial's `calibrate`: it has all it ran for.
+struct Reached {};
+
+// A step for differences by an unknown, where a trace is read off an element.
+double StepOf(double value) { return 1e-6 * std::max(1.0, std::abs(value)); }
+
+}  // namespace
+
+// One value of the unknowns, tried.
+class Machine::TrialRun {
+ public:
+  TrialRun(const Machine& main, const Host& silent, const Trial& trial)
+      : options_{main.budget_.limits, {}, {}}, machine_(main.program_, options_, silent) {
+    options_.limits.steps = main.budget_.steps_left;
+    machine_.budget_ = Budget(options_.limits);
+    machine_.trial_ = &trial;
+    machine_.photographs_ = main.photographs_;
+    if (trial.factor) {
+      // The solved numbers' sources come first, so that all runs number the others alike.
+      machine_.sources_.assign(static_cast<std::size_t>(trial.factor->cols()), {1, ""});
+    }
+  }
+
+  // Runs to `calibrate`; an error of the script is thrown.
+  void Run() {
+    Stage stage(machine_.LinksFor(true), true);
+    machine_.stage_ = &stage;
+    machine_.places_[0] = {&stage, 0};
+    registers_.resize(machine_.program_.units[0].registers);
+    try {
+      machine_.Execute(0, registers_.data(), 0, &stage);
+    } catch (const Reached&) {
+    }
+    state_ = stage.state();
+  }
+
+  const model::State& state() const { return state_; }
+  Machine& machine() { return machine_; }
+  Registers& registers() { return registers_; }
+
+ private:
+  RunOptions options_;
+  Machine machine_;
+  Registers registers_;
+  model::State state_;
+};
+
+// Gives the numbers that traces stand on for any values of the unknowns.
+class Machine::Evaluation {
+ public:
+  Evaluation(const Machine& main, const Host& silent, const Traced& start)
+      : main_(main), silent_(silent), start_(start) {
+    FindSources();
+  }
+
+  const std::vector<camera::Unknown>& unknowns() const { return unknowns_; }
+  const std::vector<std::size_t>& sources() const { return sources_; }
+  const std::optional<RunFailure>& failure() const { return failure_; }
+
+  geom::Result<camera::Numbers> operator()(const Eigen::VectorXd& unknowns) {
+    try {
+      return Evaluated(unknowns);
+    } catch (const RunFailure& failure) {
+      failure_ = failure;
+      return tl::unexpected(geom::Error{geom::ErrorCode::kOutOfRange, failure.diagnostic.message});
+    }
+  }
+
+  Trial TrialOf(const Eigen::VectorXd& unknowns) const {
+    Trial trial;
+    for (std::size_t k = 0; k < sources_.size(); ++k) {
+      trial.values[sources_[k]] = unknowns[static_cast<Eigen::Index>(k)];
+    }
+    return trial;
+  }
+
+ private:
+  // All unknowns, and each `+-` literal that a trace may depend on.
+  void FindSources() {
+    std::vector<bool> wanted(main_.solvables_.size(), !start_.shaped.empty());
+    for (const Value& number : start_.numbers) {
+      if (!number.derivatives()) continue;
+      for (const auto& [source, slope] : number.derivatives()->terms) wanted[source] = true;
+    }
+    for (std::size_t i = 0; i < main_.solvables_.size(); ++i) {
+      const Solvable& solvable = main_.solvables_[i];
+      if (solvable.unknown.name.empty() && !(wanted[i] && solvable.unknown.sigma > 0)) continue;
+      if (solvable.taken_by_unknown) continue;
+      column_[i] = static_cast<Eigen::Index>(sources_.size());
+      sources_.push_back(i);
+      unknowns_.push_back(solvable.unknown);
+    }
+  }
+
+  Traced Traces(const Eigen::VectorXd& unknowns) const {
+    const Trial trial = TrialOf(unknowns);
+    TrialRun run(main_, silent_, trial);
+    run.Run();
+    return TracedIn(run.state());
+  }
+
+  geom::Result<camera::Numbers> Evaluated(const Eigen::VectorXd& unknowns) {
+    const Traced traced = Traces(unknowns);
+    if (traced.numbers.size() != start_.numbers.size()) {
+      return tl::unexpected(geom::Error{geom::ErrorCode::kOutOfRange,
+                                        "other traces are made with other values of the unknowns"});
+    }
+    camera::Numbers numbers{
+        ValuesOf(traced.numbers),
+        Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(traced.numbers.size()), unknowns.size())};
+    for (std::size_t i = 0; i < traced.numbers.size(); ++i) {
+      const model::Derivatives* derivatives = traced.numbers[i].derivatives();
+      if (!derivatives) continue;
+      for (const auto& [source, slope] : derivatives->terms) {
+        const auto column = column_.find(source);
+        if (column == column_.end()) continue;
+        numbers.by_unknown(static_cast<Eigen::Index>(i), column->second) = slope;
+      }
+    }
+    if (!start_.shaped.empty()) DifferenceShapes(unknowns, &numbers);
+    return numbers;
+  }
+
+  // Elements carry no derivatives: what is read off them is evaluated on both sides, for each
+  // unknown that was found to move it.
+  void DifferenceShapes(const Eigen::VectorXd& unknowns, camera::Numbers* numbers) {
+    if (moves_.empty()) moves_.assign(static_cast<std::size_t>(unknowns.size()), true);
+    for (Eigen::Index k = 0; k < unknowns.size(); ++k) {
+      if (!moves_[static_cast<std::size_t>(k)]) continue;
+      const double step = StepOf(unknowns[k]);
+      Eigen::VectorXd beside = unknowns;
+      beside[k] += step;
+      const Eigen::VectorXd after = ValuesOf(Traces(beside).numbers);
+      beside[k] -= 2 * step;
+      const Eigen::VectorXd before = ValuesOf(Traces(beside).numbers);
+      bool moves = false;
+      for (const auto& [first, count] : start_.shaped) {
+        numbers->by_unknown.col(k).segment(first, count) =
+            (after - before).segment(first, count) / (2 * step);
+        moves = moves || !numbers->by_unknown.col(k).segment(first, count).isZero(0);
+      }
+      moves_[static_cast<std::size_t>(k)] = moves;
+    }
+  }
+
+  const Machine& main_;
+  const Host& silent_;
+  const Traced& start_;
+  std::vector<std::size_t> sources_;  // of each unknown of the adjustment
+  std::map<std::size_t, Eigen::Index> column_;
+  std::vector<camera::Unknown> unknowns_;
+  std::vector<bool> moves_;
+  std::optional<RunFailure> failure_;
+};
+
+namespace {
+
+struct Method {
+  std::string name = "likelihood";
+  camera::SkewRange range;
+};
+
+camera::SkewRange RangeOf(const Answers& answers, Span span) {
+  camera::SkewRange range;
+  double to_rad = range.at(range.count - 1);
+  if (const Value* skew = answers.Find("skew")) {
+    const double degree = geom::kPi / 180;
+    const double in_rad = skew->dimension().plain() ? degree : 1;
+    range.from_rad = skew->range().from * in_rad;
+    to_rad = skew->range().to * in_rad;
+  }
+  range.step_rad = answers.Number("step", range.step_rad);
+  const double steps = (to_rad - range.from_rad) / range.step_rad;
+  if (!(range.step_rad > 0) || !(steps >= 0) || steps > 100'000) {
+    Fail(Code::kOutOfRange, span, "the skew angles to be tried are not a range with a step", "",
+         "skew=88deg..92deg step=0.01deg");
+  }
+  range.count = static_cast<int>(std::floor(steps + 1e-6)) + 1;
+  return range;
+}
+
+// By a method that gives the camera alone, without deviations.
+geom::Result<camera::Estimate> EstimateBy(const Method& method,
+                                          const camera::Photograph& photograph,
+                                          const camera::Numbers& numbers) {
+  camera::Estimate estimate;
+  if (method.name == "sweep" || method.name == "paper") {
+    const auto found = method.name == "sweep"
+                           ? camera::CalibrateSweep(photograph, numbers, method.range)
+                           : camera::CalibratePaper(photograph, numbers, method.range);
+    if (!found) return tl::unexpected(found.error());
+    estimate.camera = found->camera;
+    estimate.chi2 = found->penalty;
+    estimate.profile = found->curve;
+    if (found->at_end)
+      estimate.warnings.push_back("the least penalty is at an end of the skew angles");
+    return estimate;
+  }
+  const auto found = method.name == "dlt" ? camera::CalibrateDlt(photograph, numbers)
+                                          : camera::CalibrateOrthocentre(photograph, numbers);
+  if (!found) return tl::unexpected(found.error());
+  estimate.camera = *found;
+  return estimate;
+}
+
+geom::Result<std::vector<camera::Estimate>> EstimatesBy(const Method& method, const Traced& traced,
+                                                        const camera::Numbers& numbers) {
+  std::vector<camera::Estimate> estimates;
+  for (const camera::Photograph& photograph : traced.photographs) {
+    auto estimate = EstimateBy(method, photograph, numbers);
+    if (!estimate) return tl::unexpected(estimate.error());
+    estimates.push_back(*std::move(estimate));
+  }
+  return estimates;
+}
+
+}  // namespace
+
+Fired Machine::Calibrate(const Answers& answers, const model::State& state, Span span) {
+  if (trial_) throw Reached{};
+  const Traced traced = TracedIn(state);
+  if (traced.photographs.empty()) {
+    Fail(Code::kNoPhotograph, span, "there is no photograph to calibrate", "",
+         "attach photo \"fire_1917.png\" format=40.5mm,26.7mm as fire");
+  }
+  const Host silent{host_.read, nullptr};
+  Evaluation evaluation(*this, silent, traced);
+  const Method method{answers.Text("method", "likelihood"), RangeOf(answers, span)};
+  Eigen::VectorXd start(static_cast<Eigen::Index>(evaluation.unknowns().size()));
+  for (Eigen::Index k = 0; k < start.size(); ++k) {
+    start[k] = evaluation.unknowns()[static_cast<std::size_t>(k)].start;
+  }
+  const auto evaluate = [&](const Eigen::VectorXd& unknowns) { return evaluation(unknowns); };
+  geom::Result<std::vector<camera::Estimate>> found;
+  Eigen::VectorXd solved = start;
+  if (method.name == "likelihood") {
+    camera::CalibrateOptions options;
+    options.loss = answers.Flag("robust") ? camera::Loss::kCauchy : camera::Loss::kNone;
+    options.noise_is_estimated = traced.noise_is_estimated;
+    options.trials = static_cast<int>(std::min(answers.Number("trials"), 100'000.0));
+    found = camera::Calibrate(traced.photographs, evaluation.unknowns(), evaluate, options);
+    if (found) {
+      for (Eigen::Index k = 0; k < solved.size(); ++k) {
+        solved[k] = (*found)[0].unknowns[static_cast<std::size_t>(k)].value;
+      }
+    }
+  } else {
+    const auto numbers = evaluation(start);
+    found = numbers ? EstimatesBy(method, traced, *numbers)
+                    : geom::Result<std::vector<camera::Estimate>>(tl::unexpected(numbers.error()));
+  }
+  if (evaluation.failure()) throw *evaluation.failure();
+  if (!found) FailCalibration(found.error(), traced, span);
+  return Calibrated(*found, evaluation, traced, solved, silent, state, span);
+}
+
+// The error with the trace at fault.
+void Machine::FailCalibration(const geom::Error& error, const Traced& traced, Span span) const {
+  Code code = Code::kNotCalibrated;
+  if (error.code == geom::ErrorCode::kOutOfRange) code = Code::kTracesDisagree;
+  std::vector<Note> notes;
+  int part = error.part;
+  for (const auto& ids : traced.trace_ids) {
+    if (part >= 0 && part < static_cast<int>(ids.size())) {
+      const auto place = stage_->trace_spans().find(ids[static_cast<std::size_t>(part)]);
+      if (place != stage_->trace_spans().end()) {
+        throw RunFailure{{code == Code::kNotCalibrated ? Code::kBadTrace : code,
+                          place->second,
+                          error.detail,
+                          "this trace",
+                          "",
+                          {{span, "calibrated here"}}}};
+      }
+    }
+    part -= static_cast<int>(ids.size());
+  }
+  Fail(code, span, error.detail, "",
+       "`tranos explain " + std::string(InfoOf(code).code) + "` says more");
+}
+
+// The state as the solution makes it: what depends on unknowns, and the photographs' cameras.
+Fired Machine::Calibrated(std::vector<camera::Estimate> found, const Evaluation& evaluation,
+                          const Traced& traced, const Eigen::VectorXd& solved, const Host& silent,
+                          const model::State& before, Span span) {
+  // The first photograph's covariance is of its camera and the unknowns together; those of the
+  // others are their own.
+  Eigen::MatrixXd factor(0, 0);
+  std::vector<Eigen::Index> first_source;
+  Eigen::Index columns = 0;
+  for (const camera::Estimate& estimate : found) {
+    first_source.push_back(columns);
+    columns += FactorOf(estimate.covariance).cols();
+  }
+  Trial trial = evaluation.TrialOf(solved);
+  std::erase_if(trial.values, [&](const auto& value) {
+    return solvables_[value.first].unknown.name.empty();  // literals stay as they are stated
+  });
+  const Eigen::MatrixXd first = FactorOf(found[0].covariance);
+  factor.setZero(static_cast<Eigen::Index>(evaluation.sources().size()), columns);
+  for (std::size_t k = 0; k < evaluation.sources().size(); ++k) {
+    const auto row = static_cast<Eigen::Index>(k);
+    if (camera::kParameters + row >= first.rows()) continue;
+    factor.row(row).head(first.cols()) = first.row(camera::kParameters + row);
+    trial.rows[evaluation.sources()[k]] = row;
+  }
+  trial.factor = &factor;
+  TrialRun run(*this, silent, trial);
+  run.Run();
+  CheckTrail(run.machine().trail_);
+  Fired fired;
+  fired.edit = Adopt(run, before);
+  for (std::size_t p = 0; p < found.size(); ++p) {
+    const ElementPtr element = run.state().model.Current(traced.photograph_ids[p]);
+    model::Photograph photograph = *std::get<model::PhotographPtr>(element->geometry);
+    photograph.first_source = static_cast<model::SourceId>(first_source[p]);
+    Warn(found[p], *element, traced.trace_ids[p], span);
+    photograph.estimate = std::make_shared<const camera::Estimate>(std::move(found[p]));
+    std::erase_if(fired.edit.replaced,
+                  [&](const ElementPtr& replaced) { return replaced->id == element->id; });
+    fired.edit.replaced.push_back(model::WithGeometry(
+        *element, std::make_shared<const model::Photograph>(std::move(photograph))));
+  }
+  PrintHeld();
+  return fired;
+}
+
+void Machine::Warn(const camera::Estimate& estimate, const model::Element& photograph,
+                   const std::vector<ElementId>& trace_ids, Span span) {
+  const std::string name = photograph.name ? "`" + Printable(*photograph.name) + "`: " : "";
+  for (const std::string& open : estimate.undetermined) {
+    outcome_.diagnostics.Add({Code::kCameraOpen, span, name + open, "", ""});
+  }
+  for (const std::string& warning : estimate.warnings) {
+    outcome_.diagnostics.Add({Code::kCameraWeak, span, name + warning, "", ""});
+  }
+  if (!estimate.alternatives.empty()) {
+    outcome_.diagnostics.Add({Code::kCameraWeak, span,
+                              name + "a second pose explains the traces within their noise", "",
+                              "`recover camera facade=…` or `near=…` chooses; `report camera` "
+                              "shows both"});
+  }
+  for (const camera::TraceResidual& residual : estimate.residuals) {
+    if (residual.weight >= 0.5) continue;
+    const ElementId id = trace_ids[static_cast<std::size_t>(residual.trace)];
+    const auto place = stage_->trace_spans().find(id);
+    outcome_.diagnostics.Add(
+        {Code::kTraceDoubted, place == stage_->trace_spans().end() ? span : place->second,
+         fmt::format("{}this trace is given {:.0f} % of its weight", name, 100 * residual.weight),
+         "doubted", ""});
+  }
+}
+
+// Picks and branches were decided at the start values; a solution that decides otherwise is none.
+void Machine::CheckTrail(const Trail& solved) const {
+  const std::size_t common = std::min(trail_.size(), solved.size());
+  for (std::size_t i = 0; i < common; ++i) {
+    if (trail_[i].what == solved[i].what) continue;
+    Fail(Code::kChoiceChanged, trail_[i].span,
+         "with the solved values of the unknowns this goes another way", "decided here",
+         "give the unknowns starts nearer to their solution, or choose by name");
+  }
+  if (trail_.size() != solved.size()) {
+    const Trail& longer = trail_.size() > solved.size() ? trail_ : solved;
+    Fail(Code::kChoiceChanged, longer[common].span,
+         "with the solved values of the unknowns the script decides something else here");
+  }
+}
+
+// Everything before `calibrate` as the solved values make it, and the edit that leads there.
+model::Edit Machine::Adopt(TrialRun& solved, const model::State& before) {
+  model::Edit edit;
+  const model::State& after = solved.state();
+  const auto& entries = before.model.entries;
+  for (ElementId id = 0; id < entries.size(); ++id) {
+    const model::Entry &from = entries[id], &to = after.model.entries[id];
+    const bool by_itself =
+        from.standing == model::Standing::kInModel || from.standing == model::Standing::kConsumed;
+    if (by_itself && to.element && from.element->hash != to.element->hash) {
+      edit.replaced.push_back(to.element);
+    }
+  }
+  edit.settings = after.drawing.settings;
+  edit.last_point = after.drawing.last_point;
+  std::copy(solved.registers().begin(), solved.registers().end(), innermost_[0].registers);
+  Machine& machine = solved.machine();
+  budget_.steps_left = std::min(budget_.steps_left, machine.budget_.steps_left);
+  held_ = std::move(machine.held_);
+  sources_ = std::move(machine.sources_);
+  prototypes_ = std::move(machine.prototypes_);
+  closures_made_ = machine.closures_made_;
+  outcome_.diagnostics = std::move(machine.outcome_.diagnostics);
+  outcome_.asserts = std::move(machine.outcome_.asserts);
+  outcome_.outputs = std::move(machine.outcome_.outputs);
+  outcome_.output_spans = std::move(machine.outcome_.output_spans);
+  return edit;
+}
+
+bool Machine::DependsOnUnknown(const Value& value) const {
+  if (value.is_list() && value.list().size() <= 3) {
+    return std::any_of(value.list().begin(), value.list().end(),
+                       [&](const Value& item) { return DependsOnUnknown(item); });
+  }
+  if (value.from_unknown()) return true;
+  if (value.kind() != Value::Kind::kUncertain) return false;
+  const auto& terms = value.derivatives()->terms;
+  return std::any_of(terms.begin(), terms.end(), [&](const auto& term) {
+    return term.first < sources_.size() && !sources_[term.first].name.empty();
+  });
+}
+
+void Machine::RefuseUnknown(const Value& value, Span span, std::string_view as) const {
+  if (!DependsOnUnknown(value)) return;
+  Fail(Code::kUnknownDecides, span,
+       fmt::format("{} depends on an unknown before `calibrate` has found it", as), "",
+       "write it after `calibrate`, or give a value: `.value` is the start");
+}
+
+void Machine::Decide(const Value& condition, Span span) {
+  if (!unsolved_) return;
+  if (condition.from_unknown()) RefuseUnknown(condition, span, "a condition");
+  trail_.push_back({span, condition.boolean()});
+}
+
+// A number with the error that this run tries for the literal it was just made with.
+Value Machine::WithError(Value number) {
+  if (!unsolved_) return number;
+  const std::size_t met = solvables_.size();
+  solvables_.push_back({{"", 0, sources_.back().sigma}});
+  if (!trial_) return number;
+  const auto error = trial_->values.find(met);
+  if (error == trial_->values.end()) return number;
+  return Value::Uncertain({number.number() + error->second, *number.derivatives()},
+                          number.dimension());
+}
+
+Value Machine::UnknownValue(const UnknownInfo& info, const Value& start, const Value* r,
+                            Span span) {
+  if (!start.is_number()) {
+    Fail(Code::kWrongType, span, "an unknown is a number, not " + Describe(start));
+  }
+  if (!unsolved_) {
+    if (info.is_free) {
+      Fail(Code::kUnknownDecides, span,
+           "`" + info.name + "` has no start, and nothing solves for it", "",
+           "`calibrate` would; or give it a start: `unknown " + info.name + " = 4m`");
+    }
+    outcome_.diagnostics.Add(
+        {Code::kUnknownUnsolved, span,
+         "`" + info.name + "` keeps its start, " + Format(start, program_.measures[0], -1), "",
+         "`calibrate` would solve for it"});
+    return start;
+  }
+  Solvable solvable{{info.name, start.number(), Sigma(start, sources_)}};
+  if (info.range != UnknownInfo::kNoRange && r[info.range].kind() == Value::Kind::kRange) {
+    Value from = Value::Number(r[info.range].range().from, r[info.range].dimension());
+    Value to = Value::Number(r[info.range].range().to, r[info.range].dimension());
+    solvable.unknown.min = ReadBare(from, start.dimension(), program_.measures[0]).number();
+    solvable.unknown.max = ReadBare(to, start.dimension(), program_.measures[0]).number();
+  }
+  // The deviation is now the unknown's own, and the literal's no longer.
+  const model::Derivatives* derivatives = start.derivatives();
+  if (derivatives && derivatives->terms.size() == 1 &&
+      derivatives->terms[0].first + std::size_t{1} == sources_.size() && !solvables_.empty()) {
+    solvables_.back().taken_by_unknown = true;
+  }
+  const std::size_t met = solvables_.size();
+  solvables_.push_back(solvable);
+  const auto source = static_cast<model::SourceId>(sources_.size());
+  const double value =
+      trial_ && trial_->values.contains(met) ? trial_->values.at(met) : start.number();
+  if (trial_ && trial_->factor) {  // solved: what it varies with is known
+    model::Derivatives shared;
+    const auto row = trial_->rows.find(met);
+    for (Eigen::Index j = 0; row != trial_->rows.end() && j < trial_->factor->cols(); ++j) {
+      const double slope = (*trial_->factor)(row->second, j);
+      if (slope != 0) shared.terms.emplace_back(static_cast<model::SourceId>(j), slope);
+    }
+    sources_.push_back({0, ""});
+    if (shared.terms.empty()) return Value::Number(value, start.dimension());
+    return Value::Uncertain({value, std::move(shared)}, start.dimension());
+  }
+  sources_.push_back({solvable.unknown.sigma, info.name});
+  return Value::Uncertain({value, {{{source, 1.0}}}}, start.dimension());
+}
+
+}  // namespace tranos::interp

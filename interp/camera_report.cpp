@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "interp/camera_report.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+
+#include "camera/parameter_table.h"
+#include "interp/failure.h"
+
+namespace tranos::interp {
+
+using camera::Parameter;
+using model::Photograph;
+using model::Value;
+
+namespace {
+
+constexpr double kDegree = geom::kPi / 180;
+
+// A parameter as a member of its camera.
+struct Row {
+  Parameter parameter;
+  std::string_view member;
+  double in_si;  // of the language's value, for one of the parameter
+  model::Dimension dimension;
+};
+constexpr Row kRows[] = {{camera::kFocal, "focal", 1e-3, model::kLength},
+                         {camera::kAspect, "aspect", 1, model::kPlain},
+                         {camera::kPrincipalX, "u", 1e-3, model::kLength},
+                         {camera::kPrincipalY, "v", 1e-3, model::kLength},
+                         {camera::kSkew, "skew", 1, model::kAngle},
+                         {camera::kOmega, "omega", 1, model::kAngle},
+                         {camera::kPhi, "phi", 1, model::kAngle},
+                         {camera::kKappa, "kappa", 1, model::kAngle},
+                         {camera::kX0, "x", 1, model::kLength},
+                         {camera::kY0, "y", 1, model::kLength},
+                         {camera::kZ0, "z", 1, model::kLength}};
+
+Value MemberValue(const Photograph& photograph, const Row& row) {
+  const camera::Estimate& estimate = *photograph.estimate;
+  if (estimate.parameters[row.parameter].free()) {
+    throw OpFailure{Code::kNotDetermined,
+                    fmt::format("the camera's `{}` is not determined", row.member),
+                    estimate.undetermined.empty() ? "" : estimate.undetermined.front()};
+  }
+  const double value = estimate.camera[row.parameter] * row.in_si;
+  const Eigen::MatrixXd factor = FactorOf(estimate.covariance);
+  model::Derivatives derivatives;
+  for (Eigen::Index j = 0; j < factor.cols(); ++j) {
+    const double slope = factor(row.parameter, j) * row.in_si;
+    if (slope != 0) {
+      derivatives.terms.emplace_back(photograph.first_source + static_cast<model::SourceId>(j),
+                                     slope);
+    }
+  }
+  if (derivatives.terms.empty()) return Value::Number(value, row.dimension);
+  return Value::Uncertain({value, std::move(derivatives)}, row.dimension);
+}
+
+const Row* FindRow(std::string_view name) {
+  for (const Row& row : kRows) {
+    if (row.member == name) return &row;
+  }
+  return nullptr;
+}
+
+Value Together(const Photograph& photograph, std::initializer_list<Parameter> parameters) {
+  std::vector<Value> items;
+  for (const Parameter p : parameters) items.push_back(MemberValue(photograph, kRows[p]));
+  return Value::List(std::move(items));
+}
+
+std::string ShareText(const camera::Shares& shares) {
+  return fmt::format("pixels {:.0f} %, metric data {:.0f} %, priors {:.0f} %", 100 * shares.pixels,
+                     100 * shares.metric, 100 * shares.priors);
+}
+
+std::string ParameterLine(const camera::Estimate& estimate, Parameter parameter, bool stated) {
+  const camera::ParameterRow& row = camera::kParameterRows[parameter];
+  const camera::ParameterEstimate& known = estimate.parameters[parameter];
+  if (known.free()) return fmt::format("{:>3}  not determined", row.symbol);
+  const std::string unit =
+      row.unit.empty() || row.unit == "°" ? std::string(row.unit) : " " + std::string(row.unit);
+  std::string line = fmt::format("{:>3} {:12.5f}{}", row.symbol,
+                                 estimate.camera[parameter] / row.per_unit, unit);
+  if (stated || estimate.covariance.size() == 0) return line;
+  line += fmt::format(" ± {:.5f}{}  {}", known.sigma / row.per_unit, unit, ShareText(known.shares));
+  if (known.from_prior) line += ", held by a prior alone";
+  return line;
+}
+
+}  // namespace
+
+Eigen::MatrixXd FactorOf(const Eigen::MatrixXd& covariance) {
+  if (covariance.size() == 0) return Eigen::MatrixXd(camera::kParameters, 0);
+  // Scaled first: millimetres and radians stand beside one another.
+  const Eigen::VectorXd sigma = covariance.diagonal().cwiseMax(0).cwiseSqrt();
+  const Eigen::VectorXd inverse = sigma.unaryExpr([](double s) { return s > 0 ? 1 / s : 0.0; });
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(inverse.asDiagonal() * covariance *
+                                                              inverse.asDiagonal());
+  return sigma.asDiagonal() * solver.eigenvectors() *
+         solver.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal();
+}
+
+std::optional<Value> PhotographMember(const Photograph& photograph, std::string_view name) {
+  if (name == "width") return Value::Number(photograph.frame.size_px.x(), model::kPixel);
+  if (name == "height") return Value::Number(photograph.frame.size_px.y(), model::kPixel);
+  if (name == "file") return Value::String(photograph.file);
+  const Row* row = FindRow(name);
+  const bool of_camera = row || name == "principal" || name == "position" || name == "determined";
+  if (!of_camera) return std::nullopt;
+  if (!photograph.estimate) {
+    throw OpFailure{Code::kNotDetermined, "the photograph has no camera yet", "",
+                    "`calibrate` finds it"};
+  }
+  if (name == "determined") return Value::Boolean(photograph.estimate->determined());
+  if (name == "principal") return Together(photograph, {camera::kPrincipalX, camera::kPrincipalY});
+  if (name == "position") return Together(photograph, {camera::kX0, camera::kY0, camera::kZ0});
+  return MemberValue(photograph, *row);
+}
+
+std::vector<std::string> PhotographMembers() {
+  std::vector<std::string> names = {"width",      "height",    "file",
+                                    "determined", "principal", "position"};
+  for (const Row& row : kRows) names.emplace_back(row.member);
+  return names;
+}
+
+std::vector<std::string> CameraReport(const model::Element& element, const Photograph& photograph) {
+  const camera::Estimate& estimate = *photograph.estimate;
+  const bool stated = photograph.file.empty();
+  std::vector<std::string> lines;
+  lines.push_back(fmt::format(
+      "camera {}: {} × {} px, {:g} mm × {:g} mm{}", element.name_or_empty(),
+      photograph.frame.size_px.x(), photograph.frame.size_px.y(), photograph.frame.size_mm.x(),
+      photograph.frame.size_mm.y(),
+      photograph.format_is_stated ? "" : " (no format given: 36 mm along the longer side)"));
+  for (int p = 0; p < camera::kParameters; ++p) {
+    lines.push_back(ParameterLine(estimate, static_cast<Parameter>(p), stated));
+  }
+  if (stated) return lines;
+  if (estimate.covariance.size() > 0) {
+    lines.push_back(fmt::format("χ² {:.3f}, {} degrees of freedom, noise {:.3f} px{}",
+                                estimate.chi2, estimate.dof, estimate.noise_px,
+                                estimate.noise_is_estimated ? " (estimated; Student's t)" : ""));
+  }
+  for (const camera::UnknownEstimate& unknown : estimate.unknowns) {
+    if (unknown.name.empty()) continue;
+    lines.push_back(unknown.determined
+                        ? fmt::format("{} = {:.6g} ± {:.2g}{}", unknown.name, unknown.value,
+                                      unknown.sigma, unknown.at_bound ? ", at its bound" : "")
+                        : fmt::format("{} is not determined", unknown.name));
+  }
+  if (estimate.trials.trials > 0) {
+    std::string line = fmt::format("{} trials:", estimate.trials.trials);
+    for (int p = 0; p < camera::kParameters; ++p) {
+      const camera::ParameterRow& row = camera::kParameterRows[p];
+      line += fmt::format(" {} {:.5f} ± {:.5f}", row.symbol, estimate.trials.mean[p] / row.per_unit,
+                          estimate.trials.deviation[p] / row.per_unit);
+    }
+    lines.push_back(std::move(line));
+  }
+  for (const std::string& open : estimate.undetermined) lines.push_back("open: " + open);
+  for (const std::string& warning : estimate.warnings) lines.push_back("warning: " + warning);
+  for (const camera::Alternative& other : estimate.alternatives) {
+    lines.push_back(fmt::format(
+        "a second pose fits as well (χ² {:.3f}): X0 {:.3f} m, Y0 {:.3f} m, Z0 {:.3f} m, φ {:.3f}°",
+        other.chi2, other.camera[camera::kX0], other.camera[camera::kY0], other.camera[camera::kZ0],
+        other.camera[camera::kPhi] / kDegree));
+  }
+  return lines;
+}
+
+}  // namespace tranos::interp

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What is known of a camera, in words and as numbers of the language.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "interp/arithmetic.h"
+#include "model/element.h"
+
+namespace tranos::interp {
+
+// K, pose, deviations, residuals and warnings, a line each, in the terms of the paper's Tables 1–3.
+std::vector<std::string> CameraReport(const model::Element& element,
+                                      const model::Photograph& photograph);
+
+// A member of a photograph or camera: width, height, file, and of one with a camera its parameters
+// with their deviations. Nothing if there is no such member. Throws OpFailure (kNotDetermined) for
+// what the data left open.
+std::optional<model::Value> PhotographMember(const model::Photograph& photograph,
+                                             std::string_view name);
+std::vector<std::string> PhotographMembers();
+
+// A square root F of the covariance, F Fᵀ = C, so that the adjusted quantities are linear in as
+// many independent sources with a deviation of 1.
+Eigen::MatrixXd FactorOf(const Eigen::MatrixXd& covariance);
+
+}  // namespace tranos::interp

@@ -1,0 +1,405 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Photographs and cameras: attach, priors, stated cameras, and what is known of one.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <span>
+
+#include "camera/photo.h"
+#include "interp/arithmetic.h"
+#include "interp/camera_report.h"
+#include "interp/commands/families.h"
+#include "interp/commands/firing.h"
+#include "interp/commands/photographs.h"
+#include "interp/traced.h"
+
+namespace tranos::interp {
+
+using geom::kPi;
+using model::State;
+using model::Value;
+
+namespace {
+
+constexpr double kDegree = kPi / 180;
+constexpr double kLongerSideUnlessStated_mm = 36;
+
+Where AtKey(std::string_view key) { return {Where::kKey, 0, key}; }
+
+// Two numbers above zero; nothing if they are something else.
+std::optional<geom::Vec2> PairOf(const Value& value, double unit) {
+  if (!value.is_list() || value.list().size() != 2) return std::nullopt;
+  const geom::Vec2 pair(value.list()[0].number() / unit, value.list()[1].number() / unit);
+  return pair;
+}
+
+tl::expected<geom::Vec2, CommandError> FormatOf(const Value& given) {
+  const auto size_mm = PairOf(given, 1e-3);
+  if (size_mm && size_mm->minCoeff() > 0 && size_mm->maxCoeff() < 1e7) return *size_mm;
+  return Fail({.code = Code::kOutOfRange,
+               .message = "the format is the width and the height of the negative or sensor",
+               .help = "format=40.5mm,26.7mm",
+               .where = AtKey("format")});
+}
+
+CommandResult Attach(model::Photograph photograph, const State& state) {
+  Fired fired;
+  fired.edit.added.push_back(
+      NewElement(state, std::make_shared<const model::Photograph>(std::move(photograph))));
+  fired.edit.photograph = model::kAddedBase;
+  return fired;
+}
+
+// Its size and content; a file is read once in a run.
+tl::expected<PhotographFile, CommandError> ReadPhotograph(const std::string& file,
+                                                          const Surroundings& surroundings) {
+  const auto known = surroundings.photographs.find(file);
+  if (known != surroundings.photographs.end()) return known->second;
+  if (!surroundings.host.read) {
+    return Fail({.code = Code::kCannotRead, .message = "there are no files to be read here"});
+  }
+  const auto bytes = surroundings.host.read(file);
+  if (!bytes) {
+    const bool outside = bytes.error().kind == HostError::kOutside;
+    return Fail({.code = outside ? Code::kOutsideSandbox : Code::kCannotRead,
+                 .message = fmt::format("`{}`: {}", Printable(file), bytes.error().detail),
+                 .where = AtKey("file")});
+  }
+  const auto size = camera::PhotoSizeOf(std::as_bytes(std::span(bytes->data(), bytes->size())));
+  if (!size) {
+    return Fail({.code = Code::kNoPhotograph,
+                 .message = fmt::format("`{}` is no photograph that can be read: {}",
+                                        Printable(file), size.error().detail),
+                 .help = "photographs are PNG, JPEG or TIFF",
+                 .where = AtKey("file")});
+  }
+  return surroundings.photographs
+      .emplace(file, PhotographFile{model::Hasher().Text(*bytes).Finish(),
+                                    {size->width_px, size->height_px}})
+      .first->second;
+}
+
+CommandResult AttachPhoto(const State& state, const Answers& answers,
+                          const Surroundings& surroundings) {
+  const std::string file = answers.Text("file");
+  const auto read = ReadPhotograph(file, surroundings);
+  if (!read) return Fail(read.error());
+  model::Photograph photograph{.file = file, .content = read->content};
+  photograph.frame.size_px = read->size_px;
+  if (const Value* format = answers.Find("format")) {
+    const auto size_mm = FormatOf(*format);
+    if (!size_mm) return Fail(size_mm.error());
+    photograph.frame.size_mm = *size_mm;
+  } else {
+    photograph.format_is_stated = false;
+    photograph.frame.size_mm = photograph.frame.size_px.cast<double>() *
+                               (kLongerSideUnlessStated_mm / photograph.frame.size_px.maxCoeff());
+  }
+  return Attach(std::move(photograph), state);
+}
+
+CommandResult PlaceCamera(const State& state, const Answers& answers) {
+  model::Photograph photograph;
+  const auto size_mm = FormatOf(*answers.Find("format"));
+  if (!size_mm) return Fail(size_mm.error());
+  const Value& size = *answers.Find("size");
+  photograph.frame = {
+      *size_mm,
+      {static_cast<int>(size.list()[0].number()), static_cast<int>(size.list()[1].number())}};
+  camera::Estimate stated;
+  camera::Camera& c = stated.camera;
+  c[camera::kFocal] = answers.Number("f") * 1e3;
+  c[camera::kAspect] = answers.Number("aspect", 1);
+  c[camera::kSkew] = answers.Number("skew", kPi / 2);
+  c[camera::kOmega] = answers.Number("omega");
+  c[camera::kPhi] = answers.Number("phi");
+  c[camera::kKappa] = answers.Number("kappa");
+  if (!(c[camera::kFocal] > 0)) {
+    return Fail({.code = Code::kOutOfRange,
+                 .message = "a focal length is above zero",
+                 .where = AtKey("f")});
+  }
+  if (!(c[camera::kAspect] > 0)) {
+    return Fail({.code = Code::kOutOfRange,
+                 .message = "an aspect ratio is above zero",
+                 .where = AtKey("aspect")});
+  }
+  if (!(c[camera::kSkew] > kDegree && c[camera::kSkew] < kPi - kDegree)) {
+    return Fail({.code = Code::kOutOfRange,
+                 .message = "the angle between a dot's axes is near 90 degrees",
+                 .where = AtKey("skew")});
+  }
+  if (const Value* principal = answers.Find("principal")) {
+    const auto mm = PairOf(*principal, 1e-3);
+    if (!mm) {
+      return Fail({.code = Code::kWrongCount,
+                   .message = "the principal point is two lengths, from the frame's centre",
+                   .help = "principal=0mm,0mm",
+                   .where = AtKey("principal")});
+    }
+    c.parameters.segment<2>(camera::kPrincipalX) = *mm;
+  }
+  if (auto error = TooFar(answers)) return Fail(*error);
+  c.parameters.tail<3>() = answers.points[0];
+  photograph.estimate = std::make_shared<const camera::Estimate>(std::move(stated));
+  Fired fired;
+  fired.edit.added.push_back(
+      NewElement(state, std::make_shared<const model::Photograph>(std::move(photograph))));
+  return fired;
+}
+
+CommandResult SetCamera(const State& state, const Answers& answers) {
+  const auto found = PhotographMeant(state, answers);
+  if (!found) return Fail(found.error());
+  const model::Photograph& photograph = PhotographOf(**found);
+  if (photograph.estimate && !photograph.estimate->determined()) {
+    return Fail(
+        {.code = Code::kNotDetermined,
+         .message = fmt::format("the camera of {} is not determined", NameForMessage(**found)),
+         .label = photograph.estimate->undetermined.empty()
+                      ? ""
+                      : photograph.estimate->undetermined.front()});
+  }
+  Fired fired;
+  fired.edit.photograph = (*found)->id;
+  return fired;
+}
+
+// A prior on each of the parameters that the statement names.
+CommandResult StatePrior(const State& state, const Answers& answers,
+                         const Surroundings& surroundings) {
+  const auto found = PhotographMeant(state, answers);
+  if (!found) return Fail(found.error());
+  model::Photograph changed = PhotographOf(**found);
+  const geom::Vec2& size_mm = changed.frame.size_mm;
+  const auto set = [&](camera::Parameter parameter, double value, double sigma) {
+    changed.priors[parameter] = {value, sigma};
+  };
+  const auto principal = [&](double share) {
+    set(camera::kPrincipalX, 0, share * size_mm.x());
+    set(camera::kPrincipalY, 0, share * size_mm.y());
+  };
+  if (answers.HasWord("default")) {
+    set(camera::kAspect, 1, 0.03);
+    principal(0.05);
+    set(camera::kSkew, kPi / 2, kDegree);
+  }
+  for (const auto& [key, value] : answers.keys) {
+    if (key == "photo") continue;
+    const double sigma = Sigma(value, surroundings.sources);
+    if (!(sigma > 0)) {
+      return Fail({.code = Code::kOutOfRange,
+                   .message = fmt::format("a prior on the {} states how sure it is", key),
+                   .help = fmt::format("prior {} = {}", key,
+                                       key == "aspect"      ? "1 +- 3%"
+                                       : key == "skew"      ? "90deg +- 1deg"
+                                       : key == "principal" ? "centre +- 5%"
+                                                            : "40mm +- 5%"),
+                   .where = AtKey(key)});
+    }
+    if (key == "aspect") set(camera::kAspect, value.number(), sigma);
+    if (key == "skew") set(camera::kSkew, value.number(), sigma);
+    if (key == "focal") set(camera::kFocal, value.number() * 1e3, sigma * 1e3);
+    if (key == "principal") principal(sigma);
+  }
+  if (answers.keys.empty() && answers.words.empty()) {
+    return Fail({.code = Code::kMissingValue,
+                 .message = "what is assumed of the camera?",
+                 .help = "prior default; prior aspect = 1 +- 3%"});
+  }
+  Fired fired;
+  fired.edit.replaced.push_back(WithPhotograph(**found, std::move(changed)));
+  return fired;
+}
+
+CommandResult ReportCamera(const State& state, const Answers& answers, const Surroundings&) {
+  const auto found = PhotographMeant(state, answers);
+  if (!found) return Fail(found.error());
+  const model::Photograph& photograph = PhotographOf(**found);
+  if (!photograph.estimate) return Fail(NoCameraYet(**found));
+  Fired fired;
+  fired.messages = CameraReport(**found, photograph);
+  return fired;
+}
+
+// What moves, in the unit of its parameter, for one unit of the language.
+struct Movable {
+  std::string_view key;
+  Type type;
+  camera::Parameter parameter;
+  double factor;
+};
+constexpr Movable kMovable[] = {{"f", Type::kLength, camera::kFocal, 1e3},
+                                {"aspect", Type::kNumber, camera::kAspect, 1},
+                                {"u", Type::kLength, camera::kPrincipalX, 1e3},
+                                {"v", Type::kLength, camera::kPrincipalY, 1e3},
+                                {"skew", Type::kAngle, camera::kSkew, 1},
+                                {"omega", Type::kAngle, camera::kOmega, 1},
+                                {"phi", Type::kAngle, camera::kPhi, 1},
+                                {"kappa", Type::kAngle, camera::kKappa, 1},
+                                {"x", Type::kLength, camera::kX0, 1},
+                                {"y", Type::kLength, camera::kY0, 1},
+                                {"z", Type::kLength, camera::kZ0, 1}};
+
+CommandResult StepCamera(const State& state, const Answers& answers) {
+  const auto found = PhotographMeant(state, answers);
+  if (!found) return Fail(found.error());
+  model::Photograph changed = PhotographOf(**found);
+  if (!changed.estimate) return Fail(NoCameraYet(**found));
+  auto estimate = std::make_shared<camera::Estimate>();
+  const camera::Camera before = changed.estimate->camera;
+  estimate->camera = before;
+  bool moved = false;
+  for (const Movable& row : kMovable) {
+    if (!answers.Has(row.key)) continue;
+    estimate->camera[row.parameter] += answers.Number(row.key) * row.factor;
+    moved = true;
+  }
+  if (!moved) {
+    return Fail({.code = Code::kMissingValue,
+                 .message = "which parameter is to be moved, and how far?",
+                 .help = "step camera paper omega=0.1deg"});
+  }
+  if (!(estimate->camera[camera::kFocal] > 0 && estimate->camera[camera::kAspect] > 0)) {
+    return Fail({.code = Code::kOutOfRange,
+                 .message = "the step leaves no focal length or aspect ratio above zero"});
+  }
+  Fired fired;
+  const auto penalty = PenaltyOf(state, **found, before);
+  const auto after = PenaltyOf(state, **found, estimate->camera);
+  fired.messages.push_back(penalty && after
+                               ? fmt::format("penalty {:.6g}, was {:.6g}", *after, *penalty)
+                               : "no edge with a place in space is traced: no penalty");
+  changed.estimate = std::move(estimate);
+  fired.edit.replaced.push_back(WithPhotograph(**found, std::move(changed)));
+  return fired;
+}
+
+constexpr Key kPhotoKey = {"photo", Type::kElement,
+                           "the photograph; the one last attached or set without"};
+constexpr Key kAttachKeys[] = {
+    {"file", Type::kString, "the photograph: PNG, JPEG or TIFF", {}, {}, -1, true},
+    {"format",
+     Type::kLength,
+     "width and height of the negative or sensor; 36 mm along the longer "
+     "side without",
+     {},
+     "",
+     -1,
+     false,
+     true}};
+constexpr Prompt kCameraPrompts[] = {{"position"}};
+constexpr Key kCameraKeys[] = {
+    {"f", Type::kLength, "focal length", {}, {}, -1, true},
+    {"format", Type::kLength, "width and height of the frame", {}, {}, -1, true, true},
+    {"size", Type::kSize, "width and height in pixels", {}, {}, -1, true},
+    {"aspect", Type::kNumber, "f in y by f in x", {}, "1"},
+    {"skew", Type::kAngle, "the angle between the dot's axes", {}, "90deg"},
+    {"principal",
+     Type::kLength,
+     "the principal point from the frame's centre, y down",
+     {},
+     "0mm,0mm",
+     -1,
+     false,
+     true},
+    {"omega", Type::kAngle, "tilt, up", {}, "0deg"},
+    {"phi", Type::kAngle, "pan, to the left", {}, "0deg"},
+    {"kappa", Type::kAngle, "swing", {}, "0deg"}};
+constexpr Key kPhotoKeys[] = {kPhotoKey};
+constexpr Key kPriorKeys[] = {
+    kPhotoKey,
+    {"aspect", Type::kNumber, "f in y by f in x, with its deviation"},
+    {"principal", Type::kNumber, "centre +- a share of the frame's width and height", "centre"},
+    {"skew", Type::kAngle, "the angle between the dot's axes, with its deviation"},
+    {"focal", Type::kLength, "the focal length, with its deviation"}};
+
+constexpr auto StepKeys() {
+  std::array<Key, std::size(kMovable) + 1> keys{};
+  keys[0] = kPhotoKey;
+  for (std::size_t i = 0; i < std::size(kMovable); ++i) {
+    keys[i + 1] = {kMovable[i].key, kMovable[i].type, "how far it moves"};
+  }
+  return keys;
+}
+constexpr auto kStepKeys = StepKeys();
+
+#define TRANOS_CAMERA                                                          \
+  "place camera f=35mm format=36mm,24mm size=1600,1067 phi=30deg omega=20deg " \
+  "xy=10,-30,2 as paper\n"
+
+constexpr Example kAttachExamples[] = {
+    {"attach photo \"facade.png\" format=36mm,24mm as hall", "hall.width == 1600px"},
+    {"attach photo \"facade.txt\"", "E0701"}};
+constexpr Example kPlaceCameraExamples[] = {
+    {TRANOS_CAMERA, "paper.focal == 35mm"},
+    {"place camera f=0mm format=36mm,24mm size=1600,1067 xy=0,0,0", "E0212"}};
+constexpr Example kSetCameraExamples[] = {{TRANOS_CAMERA "set camera paper", "true"},
+                                          {"set camera hall", "E0201"}};
+constexpr Example kPriorExamples[] = {
+    {"attach photo \"facade.png\" as hall; prior aspect = 1 +- 3%; prior principal = centre +- 5%",
+     "true"},
+    {"attach photo \"facade.png\" as hall; prior aspect = 1", "E0212"}};
+constexpr Example kReportExamples[] = {
+    {TRANOS_CAMERA "report camera paper", "true"},
+    {"attach photo \"facade.png\" as hall; report camera hall", "E0902"}};
+constexpr Example kStepExamples[] = {
+    {TRANOS_CAMERA "step camera paper omega=0.5deg", "paper.omega == 20.5deg"},
+    {TRANOS_CAMERA "step camera paper", "E0220"}};
+
+#undef TRANOS_CAMERA
+
+constexpr Command kCommands[] = {
+    {.words = "attach photo",
+     .family = "photograph",
+     .summary = "Brings in a photograph with the format of its negative or sensor.",
+     .keys = kAttachKeys,
+     .string_key = "file",
+     .examples = kAttachExamples,
+     .execute_with = AttachPhoto},
+    {.words = "place camera",
+     .family = "photograph",
+     .summary = "A camera whose parameters are stated.",
+     .manner = Manner::kPlaces,
+     .prompts = kCameraPrompts,
+     .keys = kCameraKeys,
+     .examples = kPlaceCameraExamples,
+     .execute = PlaceCamera},
+    {.words = "set camera",
+     .family = "set",
+     .summary = "Makes a photograph or camera the one that traces and dots belong to.",
+     .keys = kPhotoKeys,
+     .asks = "camera",
+     .examples = kSetCameraExamples,
+     .execute = SetCamera},
+    {.words = "prior",
+     .family = "photograph",
+     .summary = "States what is assumed of a camera before the data speak; `prior default` is "
+                "aspect = 1 +- 3%, principal = centre +- 5%, skew = 90deg +- 1deg.",
+     .keys = kPriorKeys,
+     .options = "default",
+     .examples = kPriorExamples,
+     .execute_with = StatePrior},
+    {.words = "report camera",
+     .family = "photograph",
+     .summary = "Prints a camera's parameters, pose, residuals, deviations and warnings.",
+     .keys = kPhotoKeys,
+     .asks = "camera",
+     .examples = kReportExamples,
+     .execute_with = ReportCamera},
+    {.words = "step camera",
+     .family = "photograph",
+     .summary =
+         "Moves parameters of a camera by a step and reports the penalty: the sum of squares "
+         "of what lies between projected edges and traced lines, in deviations.",
+     .keys = kStepKeys,
+     .asks = "camera",
+     .examples = kStepExamples,
+     .execute = StepCamera},
+};
+
+}  // namespace
+
+std::span<const Command> PhotographCommands() { return kCommands; }
+
+}  // namespace tranos::interp

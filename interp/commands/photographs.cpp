@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "interp/commands/photographs.h"
+
+#include <fmt/format.h>
+
+#include "interp/commands/firing.h"
+
+namespace tranos::interp {
+
+using model::ElementPtr;
+
+namespace {
+
+bool IsPhotograph(const model::Element& element) {
+  return std::holds_alternative<model::PhotographPtr>(element.geometry);
+}
+
+tl::expected<ElementPtr, CommandError> PhotographNamed(const model::State& state,
+                                                       const std::string& name) {
+  ElementPtr named;
+  std::vector<std::string> known;
+  state.model.ForEach([&](const ElementPtr& element) {
+    if (!IsPhotograph(*element)) return;
+    known.emplace_back(element->name_or_empty());
+    if (element->name_or_empty() == name) named = element;
+  });
+  if (named) return named;
+  const auto meant = DidYouMean(name, known);
+  return Fail({.code = Code::kUnknownName,
+               .message = fmt::format("no photograph or camera is named `{}`", Printable(name)),
+               .help = meant ? "did you mean `" + *meant + "`?"
+                             : "`attach photo … as NAME` and `place camera … as NAME` name one"});
+}
+
+}  // namespace
+
+tl::expected<ElementPtr, CommandError> PhotographMeant(const model::State& state,
+                                                       const Answers& answers) {
+  if (const model::Value* given = answers.Find("photo")) {
+    const ElementPtr current = state.model.Current(given->element()->id);
+    if (current && IsPhotograph(*current)) return current;
+    return Fail({.code = Code::kWrongElement,
+                 .message = fmt::format("`photo=` is a photograph or camera, and this is {}",
+                                        NameForMessage(*given->element())),
+                 .where = {Where::kKey, 0, "photo"}});
+  }
+  for (const std::string& word : answers.words) {
+    if (word != "default") return PhotographNamed(state, word);
+  }
+  if (ElementPtr active = state.model.Current(state.drawing.photograph)) return active;
+  return Fail({.code = Code::kNoPhotograph,
+               .message = "there is no photograph yet",
+               .help = "attach photo \"fire_1917.png\" format=40.5mm,26.7mm as fire"});
+}
+
+const model::Photograph& PhotographOf(const model::Element& element) {
+  return *std::get<model::PhotographPtr>(element.geometry);
+}
+
+ElementPtr WithPhotograph(const model::Element& element, model::Photograph photograph) {
+  return model::WithGeometry(element,
+                             std::make_shared<const model::Photograph>(std::move(photograph)));
+}
+
+CommandError NoCameraYet(const model::Element& photograph) {
+  return {.code = Code::kNotDetermined,
+          .message = fmt::format("{} has no camera yet", NameForMessage(photograph)),
+          .help = "trace edges whose place is known, then `calibrate`"};
+}
+
+}  // namespace tranos::interp

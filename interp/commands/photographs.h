@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What the commands on photographs share.
+#pragma once
+
+#include "interp/command.h"
+
+namespace tranos::interp {
+
+// The photograph or camera that a statement means: by its name in a bare word, by photo=, or the
+// one last attached or set.
+tl::expected<model::ElementPtr, CommandError> PhotographMeant(const model::State& state,
+                                                              const Answers& answers);
+const model::Photograph& PhotographOf(const model::Element& element);
+model::ElementPtr WithPhotograph(const model::Element& element, model::Photograph photograph);
+CommandError NoCameraYet(const model::Element& photograph);
+
+}  // namespace tranos::interp

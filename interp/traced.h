@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// From what a state holds of photographs and traces to what the solver takes.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "camera/traces.h"
+#include "model/state.h"
+
+namespace tranos::interp {
+
+struct Traced {
+  std::vector<camera::Photograph> photographs;           // those attached, and cameras with traces
+  std::vector<model::ElementId> photograph_ids;          // of each
+  std::vector<std::vector<model::ElementId>> trace_ids;  // of each, by trace
+  std::vector<model::Value> numbers;                     // by camera::NumberIndex, in SI
+  std::vector<std::pair<int, int>> shaped;  // first number and count of those read off an element
+  bool noise_is_estimated = false;
+};
+// Of the photograph with this id, or of all attached ones.
+Traced TracedIn(const model::State& state, model::ElementId only = model::kNoElement);
+
+// The numbers' values, without derivatives.
+Eigen::VectorXd ValuesOf(std::span<const model::Value> numbers);
+
+// The penalty of a camera: the sum of squares of what lies between edges with a place in space and
+// their traced lines, in deviations (the paper's Step F). Nothing if no such edge is traced.
+std::optional<double> PenaltyOf(const model::State& state, const model::Element& photograph,
+                                const camera::Camera& camera);
+
+}  // namespace tranos::interp
