@@ -99,8 +99,10 @@ geom::Result<std::vector<Refined>> Poses(const Task& task, const Numbers& number
   std::vector<Refined> seeing, others;
   Error failure{ErrorCode::kDegenerate, "too little is traced to find a camera from"};
   const std::vector<Camera> starts = Starts(task.photographs[0], numbers);
+  Task rough = task;
+  rough.refine.is_rough = true;
   for (const Camera& start : starts) {
-    geom::Result<Refined> refined = RefineFrom(task, numbers, {&start, 1}, u);
+    geom::Result<Refined> refined = RefineFrom(rough, numbers, {&start, 1}, u);
     if (!refined) {
       failure = refined.error();
       continue;
@@ -123,6 +125,21 @@ bool AreOnePose(const Camera& a, const Camera& b) {
   return Eigen::AngleAxisd(turn).angle() < 1e-3 && distance < 1e-3 * (1 + a.position_m().norm());
 }
 
+bool IsOne(const Refined& a, const Refined& b) {
+  return AreOnePose(CameraAt(a.state, 0), CameraAt(b.state, 0));
+}
+
+bool IsDetermined(const Task& task, const Refined& refined) {
+  const auto at = Linearise(task.photographs, task.unknowns, task.layout, refined.numbers,
+                            refined.state, task.refine.noise_scale);
+  if (!at) return false;
+  const Determination d =
+      DeterminedOf(task.photographs, task.unknowns, task.layout, refined, *at).determination;
+  return std::ranges::find(d.with_priors.begin(),
+                           d.with_priors.begin() + task.layout.nuisance_column(),
+                           false) == d.with_priors.begin() + task.layout.nuisance_column();
+}
+
 // Each photograph's own poses, and all photographs together from the first of each.
 struct Adjusted {
   Refined best;
@@ -134,17 +151,31 @@ geom::Result<Adjusted> Adjust(const Task& task, const Numbers& numbers, const Ei
   if (task.photographs.size() == 1) {
     auto poses = Poses(task, numbers, u);
     if (!poses) return tl::unexpected(poses.error());
-    Adjusted adjusted{std::move(poses->front()), {}};
-    for (std::size_t i = 1; i < poses->size(); ++i) {
-      const Refined& pose = (*poses)[i];
-      const auto is_known = [&](const Refined& other) {
-        return AreOnePose(CameraAt(pose.state, 0), CameraAt(other.state, 0));
-      };
-      if (pose.cost > adjusted.best.cost + kWithinNoise || !SeesAll(task, pose) ||
-          is_known(adjusted.best) || std::ranges::any_of(adjusted.others, is_known)) {
+    // In a valley every start ends elsewhere, and none is another pose.
+    if (!IsDetermined(task, poses->front())) return Adjusted{std::move(poses->front()), {}};
+    // Rough ones may still come down so far.
+    const double most = poses->front().cost + 2 * kWithinNoise;
+    Adjusted adjusted;
+    std::vector<Refined> refined;
+    for (const Refined& pose : *poses) {
+      if (!refined.empty() && (pose.cost > most || !SeesAll(task, pose))) continue;
+      if (std::ranges::any_of(refined, [&](const Refined& other) { return IsOne(pose, other); }))
         continue;
+      geom::Result<Refined> again = RefineAgain(task, pose);
+      if (!again) continue;
+      Unwind(again->state, 1);
+      refined.push_back(std::move(*again));
+    }
+    if (refined.empty()) return tl::unexpected(Error{ErrorCode::kDegenerate, "no camera fits"});
+    std::ranges::stable_sort(refined, {}, &Refined::cost);
+    adjusted.best = std::move(refined.front());
+    for (std::size_t i = 1; i < refined.size(); ++i) {
+      Refined& pose = refined[i];
+      const auto is_known = [&](const Refined& other) { return IsOne(pose, other); };
+      if (pose.cost <= adjusted.best.cost + kWithinNoise && SeesAll(task, pose) &&
+          !is_known(adjusted.best) && std::ranges::none_of(adjusted.others, is_known)) {
+        adjusted.others.push_back(std::move(pose));
       }
-      adjusted.others.push_back(pose);
     }
     return adjusted;
   }
@@ -161,6 +192,52 @@ geom::Result<Adjusted> Adjust(const Task& task, const Numbers& numbers, const Ei
   if (!refined) return tl::unexpected(refined.error());
   Unwind(refined->state, task.layout.cameras);
   return Adjusted{std::move(*refined), {}};
+}
+
+// The photographs with something plausible assumed of each intrinsic parameter that has no prior,
+// about where the best start has it.
+std::vector<Photograph> Anchored(const Task& task, const Numbers& numbers) {
+  std::vector<Photograph> anchored(task.photographs.begin(), task.photographs.end());
+  for (Photograph& photograph : anchored) {
+    const std::vector<Camera> starts = Starts(photograph, numbers);
+    const Camera camera = starts.empty() ? Camera{} : starts.front();
+    const double width = photograph.frame.size_mm.x();
+    const bool is_usual = camera[kFocal] > 0.3 * width && camera[kFocal] < 10 * width;
+    const Prior usual[kIntrinsics] = {
+        is_usual ? Prior{camera[kFocal], 0.2 * camera[kFocal]} : Prior{1.1 * width, 0.3 * width},
+        {1, 0.1},
+        {0, 0.1 * width},
+        {0, 0.1 * width},
+        {kPi / 2, 2 * kPi / 180}};
+    for (int i = 0; i < kIntrinsics; ++i) {
+      if (!(photograph.priors[i].sigma > 0)) photograph.priors[i] = usual[i];
+    }
+  }
+  return anchored;
+}
+
+// Where the data leave a camera open, the valley of least χ² leads to where pictures vanish, and
+// what is open there is not what is open of a camera. So the verdict is given at a plausible
+// camera of the valley; that much is assumed to find it, and nothing of what is told rests on it.
+geom::Result<void> StayPlausible(const Task& task, const Numbers& numbers, Adjusted& adjusted) {
+  if (task.photographs.size() > 1 || IsDetermined(task, adjusted.best)) return {};
+  const std::vector<Photograph> photographs = Anchored(task, numbers);
+  const Task anchored{photographs, task.unknowns, task.numbers_of,
+                      LayoutOf(photographs, task.unknowns), task.refine};
+  const auto poses = Poses(anchored, numbers, StartsOf(task.unknowns));
+  if (poses) {
+    auto refined = RefineAgain(anchored, poses->front());
+    if (refined && !IsDetermined(task, *refined)) {
+      Unwind(refined->state, 1);
+      adjusted.best = std::move(*refined);
+      return {};
+    }
+  }
+  auto refined = RefineAgain(task, adjusted.best);
+  if (!refined) return tl::unexpected(refined.error());
+  Unwind(refined->state, 1);
+  adjusted.best = std::move(*refined);
+  return {};
 }
 
 // The misfit of dots by their stated deviations, and the degrees of freedom that are theirs.
@@ -319,7 +396,8 @@ std::vector<TrialSpread> Trials(const Task& task, const Refined& near, int trial
 }
 
 // From the estimate outward on both sides, each from its neighbour.
-std::vector<ProfilePoint> Profile(const Task& task, const Refined& best, const ProfileRange& range) {
+std::vector<ProfilePoint> Profile(const Task& task, const Refined& best,
+                                  const ProfileRange& range) {
   const auto count =
       static_cast<int>(std::floor((range.to_rad - range.from_rad) / range.step_rad + 0.5));
   std::vector<ProfilePoint> profile(std::max(count + 1, 0));
@@ -342,12 +420,10 @@ std::vector<ProfilePoint> Profile(const Task& task, const Refined& best, const P
   return profile;
 }
 
-}  // namespace
-
-geom::Result<std::vector<Estimate>> Calibrate(std::span<const Photograph> photographs,
-                                              std::span<const Unknown> unknowns,
-                                              const NumbersOfUnknowns& numbers_of,
-                                              const CalibrateOptions& options) {
+geom::Result<std::vector<Estimate>> Calibrated(std::span<const Photograph> photographs,
+                                               std::span<const Unknown> unknowns,
+                                               const NumbersOfUnknowns& numbers_of,
+                                               const CalibrateOptions& options) {
   if (photographs.empty())
     return tl::unexpected(Error{ErrorCode::kDegenerate, "there is no photograph"});
   const Eigen::VectorXd u = StartsOf(unknowns);
@@ -361,6 +437,8 @@ geom::Result<std::vector<Estimate>> Calibrate(std::span<const Photograph> photog
             {.loss = options.loss, .noise_scale = 1, .skew_rad = {}}};
   auto adjusted = Adjust(task, *numbers, u);
   if (!adjusted) return tl::unexpected(adjusted.error());
+  if (const auto stayed = StayPlausible(task, *numbers, *adjusted); !stayed)
+    return tl::unexpected(stayed.error());
   std::vector<std::string> warnings;
   DotNoise noise;
   bool noise_is_estimated = false;
@@ -422,6 +500,19 @@ geom::Result<std::vector<Estimate>> Calibrate(std::span<const Photograph> photog
     first.profile = Profile(task, adjusted->best, *options.profile);
   }
   return estimates;
+}
+
+}  // namespace
+
+geom::Result<std::vector<Estimate>> Calibrate(std::span<const Photograph> photographs,
+                                              std::span<const Unknown> unknowns,
+                                              const NumbersOfUnknowns& numbers_of,
+                                              const CalibrateOptions& options) {
+  try {
+    return Calibrated(photographs, unknowns, numbers_of, options);
+  } catch (const std::exception& e) {
+    return tl::unexpected(Error{ErrorCode::kDegenerate, e.what()});
+  }
 }
 
 geom::Result<Estimate> Calibrate(const Photograph& photograph, const Numbers& numbers,

@@ -20,10 +20,10 @@ struct ProfileRange {
 
 struct CalibrateOptions {
   Loss loss = Loss::kNone;
-  double noise_px = 0.5;             // of a dot, as stated: only to be told in the result
-  bool noise_is_estimated = false;   // stated deviations then say only how dots compare
-  int trials = 0;                    // resamplings, the paper's Step I
-  std::uint64_t seed = 1;            // of these
+  double noise_px = 0.5;                // of a dot, as stated: only to be told in the result
+  bool noise_is_estimated = false;      // stated deviations then say only how dots compare
+  int trials = 0;                       // resamplings, the paper's Step I
+  std::uint64_t seed = 1;               // of these
   std::optional<ProfileRange> profile;  // χ² over the skew of the first photograph
 };
 

@@ -117,7 +117,7 @@ void SilenceLogging() {
   FLAGS_minloglevel = google::GLOG_FATAL;
 }
 
-ceres::Solver::Options Options() {
+ceres::Solver::Options Options(bool is_rough) {
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::DENSE_QR;
   options.num_threads = 1;
@@ -128,6 +128,7 @@ ceres::Solver::Options Options() {
   options.parameter_tolerance = 1e-13;
   options.gradient_tolerance = 1e-14;
   options.logging_type = ceres::SILENT;
+  if (is_rough) options.function_tolerance = 1e-6, options.max_num_iterations = 60;
   return options;
 }
 
@@ -224,7 +225,7 @@ geom::Result<Refined> Solve(std::span<const Photograph> photographs,
     }
   }
   ceres::Solver::Summary summary;
-  ceres::Solve(Options(), &problem, &summary);
+  ceres::Solve(Options(refine.is_rough), &problem, &summary);
   refined.converged = summary.termination_type == ceres::CONVERGENCE;
 
   evaluation.Update();
@@ -235,7 +236,8 @@ geom::Result<Refined> Solve(std::span<const Photograph> photographs,
                                value >= unknowns[i].max - reach);
   }
   const bool bound = std::ranges::find(refined.at_bound, true) != refined.at_bound.end();
-  if (refine.loss == Loss::kNone && !bound) Polish(evaluation, state, layout, refine.skew_rad);
+  const bool wants_polish = refine.loss == Loss::kNone && !bound && !refine.is_rough;
+  if (wants_polish) Polish(evaluation, state, layout, refine.skew_rad);
   const Linearised& at = *evaluation.linearised();
   refined.numbers = *evaluation.numbers();
   refined.chi2 = at.residuals.squaredNorm();

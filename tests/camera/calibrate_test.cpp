@@ -1,0 +1,414 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "camera/calibrate.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tests/camera/scenes.h"
+
+namespace tranos::camera {
+namespace {
+
+using benchmark::Cuboid;
+using benchmark::CuboidOf;
+using benchmark::Cuboids;
+using benchmark::TraceCuboid;
+using benchmark::TracedCuboid;
+using geom::ErrorCode;
+using scenes::Scene;
+using scenes::Townhouse;
+
+#ifdef TRANOS_SANITIZED
+constexpr int kSeeds = 20;
+#else
+constexpr int kSeeds = 1000;
+#endif
+
+void ExpectSame(const Camera& found, const Camera& truth, double tolerance) {
+  for (int i = 0; i < kParameters; ++i) {
+    EXPECT_NEAR(found.parameters[i], truth.parameters[i],
+                tolerance * std::max(1.0, std::abs(truth.parameters[i])))
+        << kParameterNames[i];
+  }
+}
+
+TEST(Calibrate, FindsAllElevenParametersOfExactTraces) {
+  for (const Cuboid& cuboid : Cuboids()) {
+    if (!cuboid.determined()) continue;
+    SCOPED_TRACE(cuboid.name);
+    const TracedCuboid traced = TraceCuboid(cuboid, {});
+    const auto estimate = Calibrate(traced.photograph, traced.numbers);
+    ASSERT_TRUE(estimate.has_value()) << estimate.error().detail;
+    ExpectSame(estimate->camera, cuboid.truth, 1e-8);
+    EXPECT_TRUE(estimate->determined());
+    EXPECT_TRUE(estimate->undetermined.empty());
+    EXPECT_LT(estimate->chi2, 1e-16);
+  }
+}
+
+TEST(Calibrate, FindsTheTownhouseOfEverything) {
+  const Scene scene = Townhouse();
+  const auto estimate = Calibrate(scene.photograph, scene.list.numbers());
+  ASSERT_TRUE(estimate.has_value()) << estimate.error().detail;
+  ExpectSame(estimate->camera, scene.truth, 1e-8);
+  EXPECT_EQ(estimate->residuals.size(), scene.photograph.traces.size());
+}
+
+TEST(Calibrate, FindsACameraOfControlPointsAlone) {
+  Scene scene;
+  scene.truth = Townhouse().truth;
+  for (const Vec3& p : {Vec3(0, 0, 0), Vec3(10, 0, 0), Vec3(10, 0, 8), Vec3(0, 0, 8),
+                        Vec3(10, 12, 0), Vec3(10, 12, 8), Vec3(4, 0, 11)}) {
+    scene.Point(p);
+  }
+  const auto estimate = Calibrate(scene.photograph, scene.list.numbers());
+  ASSERT_TRUE(estimate.has_value()) << estimate.error().detail;
+  ExpectSame(estimate->camera, scene.truth, 1e-8);
+}
+
+TEST(Calibrate, SharesAddUpAndFollowTheirSources) {
+  const Cuboid& cuboid = CuboidOf("B1");
+  TracedCuboid traced = TraceCuboid(cuboid, {.sigma_px = 0.1, .seed = 3, .dimension_sigma = 0.02});
+  traced.photograph.priors[kAspect] = {1, 0.0001};
+  const auto estimates = Calibrate(std::vector{traced.photograph}, traced.unknowns,
+                                   [&](const Eigen::VectorXd& u) -> geom::Result<Numbers> {
+                                     return benchmark::NumbersOf(cuboid, u, 3);
+                                   });
+  ASSERT_TRUE(estimates.has_value()) << estimates.error().detail;
+  const Estimate& estimate = estimates->front();
+  for (const ParameterEstimate& parameter : estimate.parameters) {
+    const Shares& s = parameter.shares;
+    EXPECT_NEAR(s.pixels + s.metric + s.priors, 1, 1e-12);
+  }
+  // Two per cent of the dimensions are more than a tenth of a pixel (DESIGN.md), and nothing but
+  // the prior knows the aspect to a ten-thousandth.
+  EXPECT_GT(estimate.parameters[kX0].shares.metric, 0.9);
+  EXPECT_GT(estimate.parameters[kAspect].shares.priors, 0.5);
+  EXPECT_EQ(estimate.unknowns.size(), 3u);
+  EXPECT_EQ(estimate.covariance.rows(), kParameters + 3);
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_NEAR(estimate.unknowns[i].value, cuboid.dimensions_m[i], 4 * estimate.unknowns[i].sigma);
+    EXPECT_NEAR(estimate.covariance(kParameters + i, kParameters + i),
+                estimate.unknowns[i].sigma * estimate.unknowns[i].sigma, 1e-15);
+  }
+}
+
+TEST(Calibrate, AnUnknownThatTheEdgesShowIsFound) {
+  // Only the height is known; width and depth are unknowns without priors, far from their starts.
+  const Cuboid& cuboid = CuboidOf("B4");
+  TracedCuboid traced = TraceCuboid(cuboid, {.dimension_sigma = 1e-9});
+  std::vector<Unknown> unknowns = traced.unknowns;
+  for (int i = 0; i < 2; ++i) {
+    unknowns[i].start = 1.02 * cuboid.dimensions_m[i];
+    unknowns[i].sigma = 0;
+  }
+  Photograph photograph = traced.photograph;
+  // Of one photograph that leaves two directions; a skew and an aspect that are known close them.
+  photograph.priors[kSkew] = {cuboid.truth[kSkew], 1e-6};
+  photograph.priors[kAspect] = {cuboid.truth[kAspect], 1e-6};
+  const auto estimates = Calibrate(std::vector{photograph}, unknowns,
+                                   [&](const Eigen::VectorXd& u) -> geom::Result<Numbers> {
+                                     return benchmark::NumbersOf(cuboid, u, 3);
+                                   });
+  ASSERT_TRUE(estimates.has_value()) << estimates.error().detail;
+  for (int i = 0; i < 2; ++i) {
+    EXPECT_NEAR(estimates->front().unknowns[i].value, cuboid.dimensions_m[i],
+                1e-5 * cuboid.dimensions_m[i]);
+  }
+}
+
+// One facade in the plane y = 0: edges, a window, and what else there may be.
+Scene OneFacade(std::uint64_t seed) {
+  Scene scene;
+  scene.truth = Townhouse().truth;
+  const scenes::Wall front{Vec3(0, 0, 0), 0, 0};
+  scene.Rectangle(front, 0, 0, 10, 6);
+  scene.Rectangle(front, 2, 1, 1.5, 2);
+  scene.Direction({1, 0, 5}, {9, 0, 5}, 0);
+  scene.Direction({1, 0, 4}, {8, 0, 4}, 0);
+  scene.Direction({8, 0, 1}, {8, 0, 5}, 2);
+  scenes::Noise noise(seed);
+  for (Trace& trace : scene.photograph.traces) {
+    if (auto* rectangle = std::get_if<RectangleTrace>(&trace)) {
+      for (Vec2& dot : rectangle->dots_px) dot += 0.5 * noise.Draw2();
+    } else if (auto* direction = std::get_if<DirectionTrace>(&trace)) {
+      direction->line.a_px += 0.5 * noise.Draw2();
+      direction->line.b_px += 0.5 * noise.Draw2();
+    }
+  }
+  return scene;
+}
+
+bool Mentions(const std::vector<std::string>& sentences, const char* words) {
+  return std::ranges::any_of(
+      sentences, [&](const std::string& s) { return s.find(words) != std::string::npos; });
+}
+
+TEST(Calibrate, OneFacadeNeverShowsTheSkew) {
+  int refused = 0;
+  for (int seed = 1; seed <= kSeeds; ++seed) {
+    const Scene scene = OneFacade(static_cast<std::uint64_t>(seed));
+    const auto estimate = Calibrate(scene.photograph, scene.list.numbers());
+    ASSERT_TRUE(estimate.has_value()) << seed << ": " << estimate.error().detail;
+    refused += !estimate->parameters[kSkew].determined && estimate->parameters[kSkew].free() &&
+               std::isnan(estimate->parameters[kSkew].sigma) &&
+               Mentions(estimate->undetermined, "skew") &&
+               Mentions(estimate->undetermined, "a second independent ratio");
+  }
+  EXPECT_EQ(refused, kSeeds);
+  RecordProperty("refused", refused);
+}
+
+// Three vanishing points of two or three lines each, and one ratio on the front.
+Scene OneRatio(std::uint64_t seed, bool second) {
+  Scene scene;
+  scene.truth = Townhouse().truth;
+  const scenes::Wall front{Vec3(0, 0, 0), 0, 0}, east{Vec3(10, 0, 0), kPi / 2, 1};
+  scene.Direction({0, 0, 0}, {10, 0, 0}, 0);
+  scene.Direction({0, 0, 8}, {10, 0, 8}, 0);
+  scene.Direction({10, 0, 0}, {10, 12, 0}, 1);
+  scene.Direction({10, 0, 8}, {10, 12, 8}, 1);
+  scene.Direction({10, 0, 3}, {10, 12, 3}, 1);
+  scene.Direction({0, 0, 0}, {0, 0, 8}, 2);
+  scene.Direction({10, 12, 0}, {10, 12, 8}, 2);
+  scene.Ratio(front, 2, 2, 3, 2);
+  if (second) scene.Ratio(east, 3, 2, 3, 2);
+  scenes::Noise noise(seed);
+  for (Trace& trace : scene.photograph.traces) {
+    if (auto* direction = std::get_if<DirectionTrace>(&trace)) {
+      direction->line.a_px += 0.3 * noise.Draw2();
+      direction->line.b_px += 0.3 * noise.Draw2();
+    } else if (auto* ratio = std::get_if<RatioTrace>(&trace)) {
+      for (Vec2& dot : ratio->dots_px) dot += 0.3 * noise.Draw2();
+    }
+  }
+  return scene;
+}
+
+TEST(Calibrate, ASingleRatioNeverShowsTheSkew) {
+  int refused = 0;
+  for (int seed = 1; seed <= kSeeds; ++seed) {
+    const Scene scene = OneRatio(static_cast<std::uint64_t>(seed), false);
+    const auto estimate = Calibrate(scene.photograph, scene.list.numbers());
+    ASSERT_TRUE(estimate.has_value()) << seed << ": " << estimate.error().detail;
+    refused += estimate->parameters[kSkew].free() && Mentions(estimate->undetermined, "skew");
+  }
+  EXPECT_EQ(refused, kSeeds);
+  RecordProperty("refused", refused);
+}
+
+TEST(Calibrate, APriorAnswersWhereTheDataDoNot) {
+  Scene scene = OneRatio(7, false);
+  scene.photograph.priors[kPrincipalX] = {scene.truth[kPrincipalX], 0.05};
+  scene.photograph.priors[kPrincipalY] = {scene.truth[kPrincipalY], 0.05};
+  const auto estimate = Calibrate(scene.photograph, scene.list.numbers());
+  ASSERT_TRUE(estimate.has_value()) << estimate.error().detail;
+  const ParameterEstimate& skew = estimate->parameters[kSkew];
+  EXPECT_FALSE(skew.determined);
+  EXPECT_TRUE(skew.from_prior);
+  EXPECT_GT(skew.shares.priors, 0);
+  EXPECT_GT(estimate->parameters[kPrincipalY].shares.priors, skew.shares.priors);
+  EXPECT_NEAR(estimate->camera[kSkew], scene.truth[kSkew], 4 * skew.sigma);
+  // Where it stood is open all the same: nothing says how long anything is.
+  EXPECT_TRUE(estimate->parameters[kX0].free());
+}
+
+TEST(Calibrate, EstimatedNoiseIsTheTrueOneAndIntervalsAreStudents) {
+  // Traced with 0.8 px and declared with 0.5.
+  Scene scene = Townhouse();
+  scenes::Noise noise(4);
+  double sum = 0;
+  const int trials = 30;
+  for (int i = 0; i < trials; ++i) {
+    Scene traced = scene;
+    for (Trace& trace : traced.photograph.traces) {
+      std::visit(
+          [&](auto& t) {
+            if constexpr (requires { t.line; }) {
+              t.line.a_px += 0.8 * noise.Draw2();
+              t.line.b_px += 0.8 * noise.Draw2();
+            } else if constexpr (requires { t.dots_px; }) {
+              for (Vec2& dot : t.dots_px) dot += 0.8 * noise.Draw2();
+            } else {
+              t.dot_px += 0.8 * noise.Draw2();
+            }
+          },
+          trace);
+    }
+    CalibrateOptions options;
+    options.noise_is_estimated = true;
+    const auto estimate = Calibrate(traced.photograph, traced.list.numbers(), options);
+    ASSERT_TRUE(estimate.has_value()) << estimate.error().detail;
+    EXPECT_TRUE(estimate->noise_is_estimated);
+    EXPECT_GT(estimate->quantile95, 2.0);
+    sum += estimate->noise_px * estimate->noise_px;
+  }
+  EXPECT_NEAR(std::sqrt(sum / trials), 0.8, 0.06);
+}
+
+TEST(Calibrate, TrialsAgreeWithTheAnalyticDeviations) {
+  const Cuboid& cuboid = CuboidOf("B2");
+  const TracedCuboid traced = TraceCuboid(cuboid, {.sigma_px = 0.25, .seed = 6});
+  CalibrateOptions options;
+  options.trials = 400;
+  const auto estimate = Calibrate(traced.photograph, traced.numbers, options);
+  ASSERT_TRUE(estimate.has_value());
+  EXPECT_EQ(estimate->trials.trials, 400);
+  for (int i = 0; i < kParameters; ++i) {
+    const double sigma = estimate->parameters[i].sigma;
+    EXPECT_NEAR(estimate->trials.deviation[i], sigma, 0.15 * sigma) << kParameterNames[i];
+    EXPECT_NEAR(estimate->trials.mean[i], estimate->camera.parameters[i], 0.2 * sigma);
+  }
+  const auto again = Calibrate(traced.photograph, traced.numbers, options);
+  EXPECT_EQ(again->trials.mean, estimate->trials.mean);
+}
+
+TEST(Calibrate, TheProfileIsLeastAtTheEstimateAndAsWideAsItsDeviation) {
+  const Cuboid& cuboid = CuboidOf("B1");
+  const TracedCuboid traced = TraceCuboid(cuboid, {.sigma_px = 0.5, .seed = 5});
+  const auto plain = Calibrate(traced.photograph, traced.numbers);
+  ASSERT_TRUE(plain.has_value());
+  const double best = plain->camera[kSkew], sigma = plain->parameters[kSkew].sigma;
+  CalibrateOptions options;
+  options.profile = ProfileRange{best - 3 * sigma, best + 3 * sigma, 0.5 * sigma};
+  const auto estimate = Calibrate(traced.photograph, traced.numbers, options);
+  ASSERT_TRUE(estimate.has_value());
+  ASSERT_EQ(estimate->profile.size(), 13u);
+  for (const ProfilePoint& point : estimate->profile) {
+    const double away = (point.alpha_rad - best) / sigma;
+    EXPECT_NEAR(point.chi2 - estimate->chi2, away * away, 0.05 * away * away + 1e-6);
+  }
+}
+
+TEST(Calibrate, ARobustLossNamesTheTraceItDoubts) {
+  Scene scene = Townhouse();
+  std::get<EdgeTrace>(scene.photograph.traces[1]).line.a_px.x() += 30;
+  CalibrateOptions options;
+  options.loss = Loss::kCauchy;
+  const auto estimate = Calibrate(scene.photograph, scene.list.numbers(), options);
+  ASSERT_TRUE(estimate.has_value()) << estimate.error().detail;
+  for (const TraceResidual& residual : estimate->residuals) {
+    EXPECT_EQ(residual.weight < 0.5, residual.trace == 1) << residual.trace;
+  }
+}
+
+TEST(Calibrate, WarnsOfTiltOutsideItsRange) {
+  Scene level = Townhouse();
+  level.photograph.traces.clear();
+  level.truth[kOmega] = 1 * kPi / 180;
+  level.Edge({0, 0, 0}, {10, 0, 0});
+  level.Edge({10, 0, 0}, {10, 0, 8});
+  level.Edge({0, 0, 8}, {10, 0, 8});
+  level.Edge({0, 0, 0}, {0, 0, 8});
+  level.Edge({10, 0, 8}, {10, 12, 8});
+  level.Edge({10, 0, 0}, {10, 12, 0});
+  level.Edge({10, 12, 0}, {10, 12, 8});
+  const auto estimate = Calibrate(level.photograph, level.list.numbers());
+  ASSERT_TRUE(estimate.has_value()) << estimate.error().detail;
+  EXPECT_TRUE(Mentions(estimate->warnings, "tilt of 1.00°"));
+  EXPECT_FALSE(Mentions(estimate->warnings, "pan of"));
+}
+
+TEST(Calibrate, TheFacadesHomographyTakesItsCornersToTheirDots) {
+  const Scene scene = OneFacade(3);
+  const auto estimate = Calibrate(scene.photograph, scene.list.numbers());
+  ASSERT_TRUE(estimate.has_value());
+  const auto& window = std::get<RectangleTrace>(scene.photograph.traces[0]);
+  const Vec2 corners[4] = {{0, 0}, {10, 0}, {10, 6}, {0, 6}};
+  for (int i = 0; i < 4; ++i) {
+    const Vec2 dot = (estimate->facade_homography * corners[i].homogeneous()).hnormalized();
+    EXPECT_LT((dot - window.dots_px[i]).norm(), 2.0);
+  }
+}
+
+geom::Error ErrorOf(const Scene& scene) {
+  const auto estimate = Calibrate(scene.photograph, scene.list.numbers());
+  if (estimate) return {ErrorCode::kDegenerate, "none", -2};
+  return estimate.error();
+}
+
+TEST(Calibrate, TellsOfALineTracedTwice) {
+  Scene scene = Townhouse();
+  scene.photograph.traces.push_back(scene.photograph.traces[3]);
+  const geom::Error error = ErrorOf(scene);
+  EXPECT_EQ(error.part, static_cast<int>(scene.photograph.traces.size()) - 1);
+  EXPECT_NE(error.detail.find("the same as that of trace 4"), std::string::npos) << error.detail;
+}
+
+TEST(Calibrate, TellsOfRectanglesTracedTheWrongWay) {
+  Scene scene = Townhouse();
+  auto& dots = std::get<RectangleTrace>(scene.photograph.traces[10]).dots_px;
+  std::swap(dots[2], dots[3]);
+  geom::Error error = ErrorOf(scene);
+  EXPECT_EQ(error.part, 10);
+  EXPECT_NE(error.detail.find("crosswise"), std::string::npos) << error.detail;
+  std::swap(dots[2], dots[3]);
+  std::swap(dots[1], dots[3]);
+  error = ErrorOf(scene);
+  EXPECT_EQ(error.part, 10);
+  EXPECT_NE(error.detail.find("clockwise"), std::string::npos) << error.detail;
+}
+
+TEST(Calibrate, TellsOfDimensionsThatAreNone) {
+  for (const double length : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN(),
+                              std::numeric_limits<double>::infinity()}) {
+    Scene scene = Townhouse();
+    const auto& rectangle = std::get<RectangleTrace>(scene.photograph.traces[10]);
+    scene.list.values[rectangle.b] = length;
+    const geom::Error error = ErrorOf(scene);
+    EXPECT_EQ(error.code, ErrorCode::kOutOfRange) << length;
+    EXPECT_EQ(error.part, 10) << length;
+  }
+}
+
+TEST(Calibrate, TellsOfLinesThatAreAllParallel) {
+  Scene scene;
+  scene.truth = Townhouse().truth;
+  scene.truth[kPhi] = scene.truth[kOmega] = scene.truth[kKappa] = 0;
+  scene.truth[kSkew] = kPi / 2;
+  for (const double z : {0.0, 1.0, 3.0, 6.0}) scene.Direction({0, 0, z}, {10, 0, z}, 0);
+  EXPECT_NE(ErrorOf(scene).detail.find("parallel"), std::string::npos);
+}
+
+TEST(Calibrate, TellsOfDirectionsThatAreNotOrthogonal) {
+  // The right wall's edges said to be along Y, and along X.
+  Scene scene;
+  scene.truth = Townhouse().truth;
+  scene.Direction({10, 0, 0}, {10, 12, 0}, 1);
+  scene.Direction({10, 0, 8}, {10, 12, 8}, 1);
+  scene.Direction({10, 0, 3}, {10, 12, 3}, 0);
+  scene.Direction({10, 0, 6}, {10, 12, 6}, 0);
+  scene.Direction({0, 0, 0}, {0, 0, 8}, 2);
+  const geom::Error error = ErrorOf(scene);
+  EXPECT_EQ(error.part, 0);
+  EXPECT_NE(error.detail.find("not orthogonal"), std::string::npos) << error.detail;
+}
+
+TEST(Calibrate, TellsOfDimensionsThatDisagree) {
+  // The gable's top is not 11 m high.
+  Scene scene = Townhouse();
+  const auto& top = std::get<PointTrace>(scene.photograph.traces[8]);
+  scene.list.values[top.at + 2] += 0.3;
+  const auto estimate = Calibrate(scene.photograph, scene.list.numbers());
+  ASSERT_TRUE(estimate.has_value());
+  EXPECT_TRUE(Mentions(estimate->warnings, "disagree")) << estimate->chi2;
+  EXPECT_TRUE(Mentions(estimate->warnings, "trace 9 is farthest off"));
+  scene.list.values[top.at + 2] += 2;
+  const geom::Error error = ErrorOf(scene);
+  EXPECT_EQ(error.part, 8) << error.detail;
+  EXPECT_NE(error.detail.find("disagree"), std::string::npos) << error.detail;
+}
+
+TEST(Calibrate, TellsThatTooLittleIsTraced) { EXPECT_NE(ErrorOf(Scene{}).part, -2); }
+
+TEST(Calibrate, LeavesNothingToExceptions) {
+  const Scene scene = Townhouse();
+  const auto thrown = Calibrate(
+      std::vector{scene.photograph}, std::vector<Unknown>{{"depth", 3}},
+      [&](const Eigen::VectorXd&) -> geom::Result<Numbers> { throw std::runtime_error("oh"); });
+  EXPECT_FALSE(thrown.has_value());
+}
+
+}  // namespace
+}  // namespace tranos::camera
