@@ -95,10 +95,9 @@ bool SeesAll(const Task& task, const Refined& refined) {
 
 // Poses of one photograph, that of least cost first; those that see what is traced before others.
 geom::Result<std::vector<Refined>> Poses(const Task& task, const Numbers& numbers,
-                                         const Eigen::VectorXd& u) {
+                                         const Eigen::VectorXd& u, std::span<const Camera> starts) {
   std::vector<Refined> seeing, others;
   Error failure{ErrorCode::kDegenerate, "too little is traced to find a camera from"};
-  const std::vector<Camera> starts = Starts(task.photographs[0], numbers);
   Task rough = task;
   rough.refine.is_rough = true;
   for (const Camera& start : starts) {
@@ -140,104 +139,103 @@ bool IsDetermined(const Task& task, const Refined& refined) {
                            false) == d.with_priors.begin() + task.layout.nuisance_column();
 }
 
-// Each photograph's own poses, and all photographs together from the first of each.
-struct Adjusted {
-  Refined best;
-  std::vector<Refined> others;  // of a single photograph: poses within noise
-};
-
-geom::Result<Adjusted> Adjust(const Task& task, const Numbers& numbers, const Eigen::VectorXd& u) {
-  constexpr double kWithinNoise = 9;
-  if (task.photographs.size() == 1) {
-    auto poses = Poses(task, numbers, u);
-    if (!poses) return tl::unexpected(poses.error());
-    // In a valley every start ends elsewhere, and none is another pose.
-    if (!IsDetermined(task, poses->front())) return Adjusted{std::move(poses->front()), {}};
-    // Rough ones may still come down so far.
-    const double most = poses->front().cost + 2 * kWithinNoise;
-    Adjusted adjusted;
-    std::vector<Refined> refined;
-    for (const Refined& pose : *poses) {
-      if (!refined.empty() && (pose.cost > most || !SeesAll(task, pose))) continue;
-      if (std::ranges::any_of(refined, [&](const Refined& other) { return IsOne(pose, other); }))
-        continue;
-      geom::Result<Refined> again = RefineAgain(task, pose);
-      if (!again) continue;
-      Unwind(again->state, 1);
-      refined.push_back(std::move(*again));
-    }
-    if (refined.empty()) return tl::unexpected(Error{ErrorCode::kDegenerate, "no camera fits"});
-    std::ranges::stable_sort(refined, {}, &Refined::cost);
-    adjusted.best = std::move(refined.front());
-    for (std::size_t i = 1; i < refined.size(); ++i) {
-      Refined& pose = refined[i];
-      const auto is_known = [&](const Refined& other) { return IsOne(pose, other); };
-      if (pose.cost <= adjusted.best.cost + kWithinNoise && SeesAll(task, pose) &&
-          !is_known(adjusted.best) && std::ranges::none_of(adjusted.others, is_known)) {
-        adjusted.others.push_back(std::move(pose));
-      }
-    }
-    return adjusted;
+// The photograph with something plausible assumed of each intrinsic parameter that has no prior,
+// about where a start has it.
+Photograph Anchored(Photograph photograph, const Camera& start) {
+  const double width = photograph.frame.size_mm.x();
+  const bool is_usual = start[kFocal] > 0.3 * width && start[kFocal] < 10 * width;
+  const Prior usual[kIntrinsics] = {
+      is_usual ? Prior{start[kFocal], 0.2 * start[kFocal]} : Prior{1.1 * width, 0.3 * width},
+      {1, 0.1},
+      {0, 0.1 * width},
+      {0, 0.1 * width},
+      {kPi / 2, 2 * kPi / 180}};
+  for (int i = 0; i < kIntrinsics; ++i) {
+    if (!(photograph.priors[i].sigma > 0)) photograph.priors[i] = usual[i];
   }
-  std::vector<Camera> cameras;
-  for (const Photograph& photograph : task.photographs) {
-    const std::span<const Photograph> one(&photograph, 1);
-    const auto poses =
-        Poses({one, task.unknowns, task.numbers_of, LayoutOf(one, task.unknowns), task.refine},
-              numbers, u);
-    if (!poses) return tl::unexpected(poses.error());
-    cameras.push_back(CameraAt(poses->front().state, 0));
-  }
-  auto refined = RefineFrom(task, numbers, cameras, u);
-  if (!refined) return tl::unexpected(refined.error());
-  Unwind(refined->state, task.layout.cameras);
-  return Adjusted{std::move(*refined), {}};
-}
-
-// The photographs with something plausible assumed of each intrinsic parameter that has no prior,
-// about where the best start has it.
-std::vector<Photograph> Anchored(const Task& task, const Numbers& numbers) {
-  std::vector<Photograph> anchored(task.photographs.begin(), task.photographs.end());
-  for (Photograph& photograph : anchored) {
-    const std::vector<Camera> starts = Starts(photograph, numbers);
-    const Camera camera = starts.empty() ? Camera{} : starts.front();
-    const double width = photograph.frame.size_mm.x();
-    const bool is_usual = camera[kFocal] > 0.3 * width && camera[kFocal] < 10 * width;
-    const Prior usual[kIntrinsics] = {
-        is_usual ? Prior{camera[kFocal], 0.2 * camera[kFocal]} : Prior{1.1 * width, 0.3 * width},
-        {1, 0.1},
-        {0, 0.1 * width},
-        {0, 0.1 * width},
-        {kPi / 2, 2 * kPi / 180}};
-    for (int i = 0; i < kIntrinsics; ++i) {
-      if (!(photograph.priors[i].sigma > 0)) photograph.priors[i] = usual[i];
-    }
-  }
-  return anchored;
+  return photograph;
 }
 
 // Where the data leave a camera open, the valley of least χ² leads to where pictures vanish, and
 // what is open there is not what is open of a camera. So the verdict is given at a plausible
 // camera of the valley; that much is assumed to find it, and nothing of what is told rests on it.
-geom::Result<void> StayPlausible(const Task& task, const Numbers& numbers, Adjusted& adjusted) {
-  if (task.photographs.size() > 1 || IsDetermined(task, adjusted.best)) return {};
-  const std::vector<Photograph> photographs = Anchored(task, numbers);
-  const Task anchored{photographs, task.unknowns, task.numbers_of,
-                      LayoutOf(photographs, task.unknowns), task.refine};
-  const auto poses = Poses(anchored, numbers, StartsOf(task.unknowns));
-  if (poses) {
-    auto refined = RefineAgain(anchored, poses->front());
-    if (refined && !IsDetermined(task, *refined)) {
-      Unwind(refined->state, 1);
-      adjusted.best = std::move(*refined);
-      return {};
+// Nothing where the data leave nothing open.
+std::optional<Refined> InValley(const Task& task, const Numbers& numbers, const Eigen::VectorXd& u,
+                                std::span<const Camera> starts) {
+  Task rough = task;
+  rough.refine.is_rough = true;
+  const auto first = RefineFrom(rough, numbers, starts.first(1), u);
+  if (!first || IsDetermined(task, *first)) return {};
+  const Photograph photograph = Anchored(task.photographs[0], starts[0]);
+  const std::span<const Photograph> one(&photograph, 1);
+  const Task anchored{one, task.unknowns, task.numbers_of, LayoutOf(one, task.unknowns),
+                      task.refine};
+  const auto poses = Poses(anchored, numbers, u, starts);
+  if (!poses) return {};
+  auto refined = RefineAgain(anchored, poses->front());
+  if (!refined || IsDetermined(task, *refined)) return {};
+  Unwind(refined->state, 1);
+  return std::move(*refined);
+}
+
+struct Adjusted {
+  Refined best;
+  std::vector<Refined> others;  // poses within noise, of a single photograph
+};
+
+geom::Result<Adjusted> AdjustOne(const Task& task, const Numbers& numbers,
+                                 const Eigen::VectorXd& u) {
+  constexpr double kWithinNoise = 9;
+  const std::vector<Camera> starts = Starts(task.photographs[0], numbers);
+  if (starts.empty()) {
+    return tl::unexpected(
+        Error{ErrorCode::kDegenerate, "too little is traced to find a camera from"});
+  }
+  if (auto open = InValley(task, numbers, u, starts)) return Adjusted{std::move(*open), {}};
+  const auto poses = Poses(task, numbers, u, starts);
+  if (!poses) return tl::unexpected(poses.error());
+  // Rough ones may still come down so far.
+  const double most = poses->front().cost + 2 * kWithinNoise;
+  std::vector<Refined> refined;
+  for (const Refined& pose : *poses) {
+    const auto is_known = [&](const Refined& other) { return IsOne(pose, other); };
+    const bool is_other = pose.cost <= most && SeesAll(task, pose);
+    if (!refined.empty() && (!is_other || std::ranges::any_of(refined, is_known))) continue;
+    geom::Result<Refined> again = RefineAgain(task, pose);
+    if (!again) continue;
+    Unwind(again->state, 1);
+    refined.push_back(std::move(*again));
+  }
+  if (refined.empty()) return tl::unexpected(Error{ErrorCode::kDegenerate, "no camera fits"});
+  std::ranges::stable_sort(refined, {}, &Refined::cost);
+  Adjusted adjusted{std::move(refined.front()), {}};
+  for (std::size_t i = 1; i < refined.size(); ++i) {
+    Refined& pose = refined[i];
+    const auto is_known = [&](const Refined& other) { return IsOne(pose, other); };
+    if (pose.cost <= adjusted.best.cost + kWithinNoise && SeesAll(task, pose) &&
+        !is_known(adjusted.best) && std::ranges::none_of(adjusted.others, is_known)) {
+      adjusted.others.push_back(std::move(pose));
     }
   }
-  auto refined = RefineAgain(task, adjusted.best);
+  return adjusted;
+}
+
+// Each photograph's own pose, and all photographs together from these.
+geom::Result<Adjusted> Adjust(const Task& task, const Numbers& numbers, const Eigen::VectorXd& u) {
+  if (task.photographs.size() == 1) return AdjustOne(task, numbers, u);
+  std::vector<Camera> cameras;
+  for (const Photograph& photograph : task.photographs) {
+    const std::span<const Photograph> one(&photograph, 1);
+    const auto alone =
+        AdjustOne({one, task.unknowns, task.numbers_of, LayoutOf(one, task.unknowns), task.refine},
+                  numbers, u);
+    if (!alone) return tl::unexpected(alone.error());
+    cameras.push_back(CameraAt(alone->best.state, 0));
+  }
+  auto refined = RefineFrom(task, numbers, cameras, u);
   if (!refined) return tl::unexpected(refined.error());
-  Unwind(refined->state, 1);
-  adjusted.best = std::move(*refined);
-  return {};
+  Unwind(refined->state, task.layout.cameras);
+  return Adjusted{std::move(*refined), {}};
 }
 
 // The misfit of dots by their stated deviations, and the degrees of freedom that are theirs.
@@ -437,8 +435,6 @@ geom::Result<std::vector<Estimate>> Calibrated(std::span<const Photograph> photo
             {.loss = options.loss, .noise_scale = 1, .skew_rad = {}}};
   auto adjusted = Adjust(task, *numbers, u);
   if (!adjusted) return tl::unexpected(adjusted.error());
-  if (const auto stayed = StayPlausible(task, *numbers, *adjusted); !stayed)
-    return tl::unexpected(stayed.error());
   std::vector<std::string> warnings;
   DotNoise noise;
   bool noise_is_estimated = false;
