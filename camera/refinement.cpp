@@ -128,7 +128,10 @@ ceres::Solver::Options Options(bool is_rough) {
   options.parameter_tolerance = 1e-13;
   options.gradient_tolerance = 1e-14;
   options.logging_type = ceres::SILENT;
-  if (is_rough) options.function_tolerance = 1e-6, options.max_num_iterations = 60;
+  if (!is_rough) return options;
+  options.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;
+  options.function_tolerance = 1e-4;
+  options.max_num_iterations = 60;
   return options;
 }
 
@@ -145,7 +148,7 @@ std::vector<StateBlock> BlocksOf(const Layout& layout, int photograph) {
 // Gauss–Newton to the last bits, where Ceres's tests of progress drown in rounding.
 void Polish(Evaluation& evaluation, Eigen::VectorXd& state, const Layout& layout,
             const std::optional<double>& skew_rad) {
-  constexpr int kSteps = 4;
+  constexpr int kSteps = 12;
   for (int i = 0; i < kSteps; ++i) {
     const Eigen::VectorXd before = state;
     Eigen::MatrixXd j = evaluation.linearised()->jacobian;
@@ -167,7 +170,7 @@ void Polish(Evaluation& evaluation, Eigen::VectorXd& state, const Layout& layout
       evaluation.Update();
       return;
     }
-    if (step.norm() < 1e-11) return;
+    if (step.norm() < 1e-10) return;
   }
 }
 
@@ -225,7 +228,10 @@ geom::Result<Refined> Solve(std::span<const Photograph> photographs,
     }
   }
   ceres::Solver::Summary summary;
-  ceres::Solve(Options(refine.is_rough), &problem, &summary);
+  ceres::Solver::Options solver = Options(refine.is_rough);
+  // Polishing goes on from there in fewer evaluations.
+  if (refine.loss == Loss::kNone && !refine.is_rough) solver.function_tolerance = 1e-12;
+  ceres::Solve(solver, &problem, &summary);
   refined.converged = summary.termination_type == ceres::CONVERGENCE;
 
   evaluation.Update();

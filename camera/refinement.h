@@ -22,7 +22,7 @@ struct RefineOptions {
   Loss loss = Loss::kNone;
   double noise_scale = 1;          // deviations of dots in units of the stated ones
   std::optional<double> skew_rad;  // held, in the first photograph
-  bool is_rough = false;           // to a millionth of χ² or a hundredth: to compare starts by
+  bool is_rough = false;  // until χ² falls by less than 1e-4 of itself: to compare starts
 };
 
 struct Refined {

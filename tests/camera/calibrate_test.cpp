@@ -322,6 +322,118 @@ TEST(Calibrate, TheFacadesHomographyTakesItsCornersToTheirDots) {
   }
 }
 
+TEST(Calibrate, FindsLevelCamerasThatLookStraightAtTheFront) {
+  for (const char* name : {"B1", "B2", "B3", "B4"}) {
+    for (const double degrees : {1.0, 0.1, 0.0}) {
+      SCOPED_TRACE(std::string(name) + " " + std::to_string(degrees));
+      Cuboid tilted = CuboidOf(name), panned = CuboidOf(name);
+      tilted.truth[kOmega] = degrees * kPi / 180;
+      panned.truth[kPhi] = degrees * kPi / 180;
+      for (const Cuboid& cuboid : {tilted, panned}) {
+        const TracedCuboid traced = TraceCuboid(cuboid, {});
+        const auto estimate = Calibrate(traced.photograph, traced.numbers);
+        ASSERT_TRUE(estimate.has_value()) << estimate.error().detail;
+        ExpectSame(estimate->camera, cuboid.truth, 1e-8);
+        EXPECT_TRUE(estimate->determined());
+        EXPECT_FALSE(estimate->warnings.empty());
+      }
+    }
+  }
+}
+
+// A small window seen from far away, by a camera that is known but for its pose.
+Scene FarWindow(double distance_m) {
+  Scene scene;
+  scene.truth.parameters << 200, 1, 0, 0, kPi / 2, 0.3, 0.35, 0.01, 0, 0, 0;
+  scene.truth.parameters.tail<3>() = distance_m * Vec3(std::sin(0.35), -std::cos(0.35), -0.3);
+  scene.Rectangle({Vec3(0, 0, 0), 0, 0}, 0, 0, 1.2, 2.1);
+  for (int i = 0; i < kIntrinsics; ++i) {
+    scene.photograph.priors[i] = {scene.truth.parameters[i], i == kFocal ? 0.1 : 1e-4};
+  }
+  return scene;
+}
+
+TEST(Calibrate, ASmallWindowHasTwoPosesAndANearOneHasOne) {
+  const Scene far = FarWindow(150);
+  const auto estimate = Calibrate(far.photograph, far.list.numbers());
+  ASSERT_TRUE(estimate.has_value()) << estimate.error().detail;
+  ASSERT_EQ(estimate->alternatives.size(), 1u);
+  ExpectSame(estimate->camera, far.truth, 1e-5);
+  const Alternative& other = estimate->alternatives[0];
+  EXPECT_LT(other.chi2, estimate->chi2 + 9);
+  EXPECT_EQ(other.covariance.rows(), kParameters);
+  // The window's normal is mirrored about the line of sight: seen from the other side.
+  EXPECT_LT(other.camera[kX0] * far.truth[kX0], 0);
+  EXPECT_LT(other.camera[kY0], 0);
+  const Scene near = FarWindow(12);
+  const auto only = Calibrate(near.photograph, near.list.numbers());
+  ASSERT_TRUE(only.has_value());
+  EXPECT_TRUE(only->alternatives.empty());
+  ExpectSame(only->camera, near.truth, 1e-5);
+}
+
+TEST(Calibrate, PhotographsOfOneBuildingAnswerEachOther) {
+  // The second photograph shows two corners of which only the first one's edges tell the height.
+  const Cuboid& from_right = CuboidOf("B4");
+  Cuboid from_left = from_right;
+  from_left.truth[kX0] = -25, from_left.truth[kPhi] = -30 * kPi / 180;
+  const TracedCuboid first = TraceCuboid(from_right, {.sigma_px = 0.5, .seed = 1});
+  const TracedCuboid second = TraceCuboid(from_left, {.sigma_px = 0.5, .seed = 2});
+  std::vector<Unknown> unknowns;
+  for (int i = 0; i < 3; ++i) {
+    // The width is measured, and the others are guessed.
+    const double start = from_right.dimensions_m[i];
+    unknowns.push_back({i == 0   ? "width"
+                        : i == 1 ? "depth"
+                                 : "height",
+                        i == 0 ? start : 1.02 * start, i == 0 ? 0.001 : 0.0});
+  }
+  std::vector<Photograph> photographs{first.photograph, second.photograph};
+  // One camera and one film: square dots at right angles.
+  for (Photograph& photograph : photographs) {
+    photograph.priors[kAspect] = {from_right.truth[kAspect], 1e-4};
+    photograph.priors[kSkew] = {from_right.truth[kSkew], 1e-4};
+  }
+  const auto estimates =
+      Calibrate(photographs, unknowns, [&](const Eigen::VectorXd& u) -> geom::Result<Numbers> {
+        return benchmark::NumbersOf(from_right, u, 3);
+      });
+  ASSERT_TRUE(estimates.has_value()) << estimates.error().detail;
+  ASSERT_EQ(estimates->size(), 2u);
+  const Camera truths[] = {from_right.truth, from_left.truth};
+  for (int p = 0; p < 2; ++p) {
+    const Estimate& estimate = (*estimates)[p];
+    for (int i = 0; i < kParameters; ++i) {
+      ASSERT_FALSE(estimate.parameters[i].free()) << kParameterNames[i];
+      EXPECT_NEAR(estimate.camera.parameters[i], truths[p].parameters[i],
+                  4.5 * estimate.parameters[i].sigma)
+          << p << " " << kParameterNames[i];
+    }
+    for (int i = 0; i < 3; ++i) {
+      EXPECT_NEAR(estimate.unknowns[i].value, from_right.dimensions_m[i],
+                  4.5 * estimate.unknowns[i].sigma);
+    }
+  }
+  EXPECT_EQ((*estimates)[0].chi2, (*estimates)[1].chi2);
+}
+
+TEST(Calibrate, AnUnknownThatNothingShowsIsNamed) {
+  const Cuboid& cuboid = CuboidOf("B1");
+  const TracedCuboid traced = TraceCuboid(cuboid, {.sigma_px = 0.5, .seed = 8});
+  const std::vector<Unknown> unknowns{{"rise", 4}};
+  const auto estimates = Calibrate(std::vector{traced.photograph}, unknowns,
+                                   [&](const Eigen::VectorXd&) -> geom::Result<Numbers> {
+                                     Numbers numbers = traced.numbers;
+                                     numbers.by_unknown =
+                                         Eigen::MatrixXd::Zero(numbers.values.size(), 1);
+                                     return numbers;
+                                   });
+  ASSERT_TRUE(estimates.has_value()) << estimates.error().detail;
+  EXPECT_FALSE(estimates->front().unknowns[0].determined);
+  EXPECT_TRUE(Mentions(estimates->front().undetermined, "`rise` is not seen"));
+  EXPECT_TRUE(estimates->front().determined());
+}
+
 geom::Error ErrorOf(const Scene& scene) {
   const auto estimate = Calibrate(scene.photograph, scene.list.numbers());
   if (estimate) return {ErrorCode::kDegenerate, "none", -2};
