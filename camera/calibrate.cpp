@@ -128,15 +128,18 @@ bool IsOne(const Refined& a, const Refined& b) {
   return AreOnePose(CameraAt(a.state, 0), CameraAt(b.state, 0));
 }
 
-bool IsDetermined(const Task& task, const Refined& refined) {
+// Whether priors and data leave nothing of a camera open but, perhaps, where it stood.
+bool HasView(const Task& task, const Refined& refined) {
   const auto at = Linearise(task.photographs, task.unknowns, task.layout, refined.numbers,
                             refined.state, task.refine.noise_scale);
   if (!at) return false;
-  const Determination d =
-      DeterminedOf(task.photographs, task.unknowns, task.layout, refined, *at).determination;
-  return std::ranges::find(d.with_priors.begin(),
-                           d.with_priors.begin() + task.layout.nuisance_column(),
-                           false) == d.with_priors.begin() + task.layout.nuisance_column();
+  const std::vector<bool> determined =
+      DeterminedOf(task.photographs, task.unknowns, task.layout, refined, *at)
+          .determination.with_priors;
+  for (int i = 0; i < task.layout.unknown_column(); ++i) {
+    if (i % kParameters < kX0 && !determined[i]) return false;
+  }
+  return true;
 }
 
 // The photograph with something plausible assumed of each intrinsic parameter that has no prior,
@@ -165,17 +168,28 @@ std::optional<Refined> InValley(const Task& task, const Numbers& numbers, const 
   Task rough = task;
   rough.refine.is_rough = true;
   const auto first = RefineFrom(rough, numbers, starts.first(1), u);
-  if (!first || IsDetermined(task, *first)) return {};
-  const Photograph photograph = Anchored(task.photographs[0], starts[0]);
+  if (!first || HasView(task, *first)) return {};
+  Photograph photograph = Anchored(task.photographs[0], starts[0]);
   const std::span<const Photograph> one(&photograph, 1);
   const Task anchored{one, task.unknowns, task.numbers_of, LayoutOf(one, task.unknowns),
                       task.refine};
   const auto poses = Poses(anchored, numbers, u, starts);
   if (!poses) return {};
-  auto refined = RefineAgain(anchored, poses->front());
-  if (!refined || IsDetermined(task, *refined)) return {};
-  Unwind(refined->state, 1);
-  return std::move(*refined);
+  Refined near = poses->front();
+  // What is determined comes free of the assumptions when these follow the camera; along the valley
+  // nothing moves it then.
+  constexpr int kRounds = 3;
+  for (int round = 0; round < kRounds; ++round) {
+    for (int i = 0; i < kIntrinsics && round > 0; ++i) {
+      if (!(task.photographs[0].priors[i].sigma > 0)) photograph.priors[i].value = near.state[i];
+    }
+    auto refined = RefineAgain(anchored, near);
+    if (!refined) return {};
+    near = std::move(*refined);
+  }
+  Unwind(near.state, 1);
+  if (HasView(task, near)) return {};
+  return near;
 }
 
 struct Adjusted {
@@ -270,7 +284,7 @@ geom::Result<DotNoise> EstimateNoise(Task& task, Adjusted& adjusted) {
     // Exact traces leave nothing but rounding.
     const double scale = std::max(std::sqrt(noise.variance), 1e-6);
     task.refine.noise_scale *= scale;
-    if (task.layout.rows() > task.layout.trace_rows) {
+    if (task.layout.rows() > task.layout.trace_rows && HasView(task, adjusted.best)) {
       auto refined = RefineAgain(task, adjusted.best);
       if (!refined) return tl::unexpected(refined.error());
       adjusted.best = std::move(*refined);
@@ -393,6 +407,11 @@ std::vector<TrialSpread> Trials(const Task& task, const Refined& near, int trial
   return spread;
 }
 
+bool IsSound(const ProfileRange& range) {
+  const double steps = (range.to_rad - range.from_rad) / range.step_rad;
+  return range.step_rad > 0 && std::isfinite(range.from_rad) && steps >= 0 && steps <= 1e5;
+}
+
 // From the estimate outward on both sides, each from its neighbour.
 std::vector<ProfilePoint> Profile(const Task& task, const Refined& best,
                                   const ProfileRange& range) {
@@ -412,7 +431,7 @@ std::vector<ProfilePoint> Profile(const Task& task, const Refined& best,
       auto refined = RefineAgain(held, near);
       if (!refined) break;
       near = std::move(*refined);
-      profile[i].chi2 = near.chi2;
+      profile[i].chi2 = near.cost;
     }
   }
   return profile;
@@ -424,6 +443,10 @@ geom::Result<std::vector<Estimate>> Calibrated(std::span<const Photograph> photo
                                                const CalibrateOptions& options) {
   if (photographs.empty())
     return tl::unexpected(Error{ErrorCode::kDegenerate, "there is no photograph"});
+  if (options.profile && !IsSound(*options.profile)) {
+    return tl::unexpected(Error{ErrorCode::kOutOfRange,
+                                "the skew's range takes a step above 0 and at most 100000 steps"});
+  }
   const Eigen::VectorXd u = StartsOf(unknowns);
   const geom::Result<Numbers> numbers = numbers_of(u);
   if (!numbers) return tl::unexpected(numbers.error());
@@ -490,11 +513,14 @@ geom::Result<std::vector<Estimate>> Calibrated(std::span<const Photograph> photo
       estimate.quantile95 = StudentQuantile(0.975, noise.dof);
     }
     estimate.trials = trials[p];
+    for (int i = 0; i < kParameters; ++i) {
+      if (!estimate.parameters[i].free()) continue;
+      estimate.trials.mean[i] = estimate.trials.deviation[i] =
+          std::numeric_limits<double>::quiet_NaN();
+    }
     estimate.warnings.insert(estimate.warnings.begin(), warnings.begin(), warnings.end());
   }
-  if (options.profile && options.profile->step_rad > 0) {
-    first.profile = Profile(task, adjusted->best, *options.profile);
-  }
+  if (options.profile) first.profile = Profile(task, adjusted->best, *options.profile);
   return estimates;
 }
 

@@ -37,10 +37,14 @@ struct CalibrateOptions {
 // of the dots alone. A misfit far beyond the degrees of freedom is a warning, and beyond ten
 // deviations for each an error, unless the loss is robust or the noise is estimated.
 //
+// Where the view of a single photograph is left open, its camera is a plausible one of those that
+// fit: the traces' images are right, the numbers that are not determined mean nothing. Trials tell
+// NaN for these. The profile is of what is made least, χ² without a robust loss.
+//
 // Errors, `part` the index of the trace in its photograph: kDegenerate: a line traced twice, all
 // lines parallel, a rectangle traced crosswise or clockwise, axes that share a vanishing point, too
 // few traces to start from. kOutOfRange: a dimension that is not positive and finite, traces that
-// disagree. What `numbers_of` told.
+// disagree, a profile's range. What `numbers_of` told.
 geom::Result<std::vector<Estimate>> Calibrate(std::span<const Photograph>, std::span<const Unknown>,
                                               const NumbersOfUnknowns& numbers_of,
                                               const CalibrateOptions& = {});

@@ -214,6 +214,23 @@ TEST(Calibrate, APriorAnswersWhereTheDataDoNot) {
   EXPECT_TRUE(estimate->parameters[kX0].free());
 }
 
+TEST(Calibrate, ThePenaltyOfOneFacadeIsFlatOverTheSkew) {
+  const Scene scene = OneFacade(11);
+  CalibrateOptions options;
+  options.profile = ProfileRange{88 * kPi / 180, 92 * kPi / 180, 0.5 * kPi / 180};
+  const auto estimate = Calibrate(scene.photograph, scene.list.numbers(), options);
+  ASSERT_TRUE(estimate.has_value());
+  ASSERT_EQ(estimate->profile.size(), 9u);
+  // So the camera that was taken is on the floor of the valley, too: what had to be assumed to
+  // find one has not bent it.
+  for (const ProfilePoint& point : estimate->profile) {
+    EXPECT_NEAR(point.chi2, estimate->chi2, 1e-6);
+  }
+  // Eight of the camera's parameters, as many as a homography has, and the second window's place.
+  EXPECT_EQ(estimate->dof, 16 + 3 - 8 - 2);
+  EXPECT_LT(estimate->chi2, estimate->dof + 4 * std::sqrt(2.0 * estimate->dof));
+}
+
 TEST(Calibrate, EstimatedNoiseIsTheTrueOneAndIntervalsAreStudents) {
   // Traced with 0.8 px and declared with 0.5.
   Scene scene = Townhouse();
@@ -429,6 +446,9 @@ TEST(Calibrate, AnUnknownThatNothingShowsIsNamed) {
                                      return numbers;
                                    });
   ASSERT_TRUE(estimates.has_value()) << estimates.error().detail;
+  const auto without = Calibrate(traced.photograph, traced.numbers);
+  ASSERT_TRUE(without.has_value());
+  ExpectSame(estimates->front().camera, without->camera, 1e-7);
   EXPECT_FALSE(estimates->front().unknowns[0].determined);
   EXPECT_TRUE(Mentions(estimates->front().undetermined, "`rise` is not seen"));
   EXPECT_TRUE(estimates->front().determined());
