@@ -9,6 +9,7 @@
 #include <cstdio>
 
 #include "camera/adjustment.h"
+#include "camera/calibrate.h"
 #include "camera/likelihood.h"
 #include "camera/refinement.h"
 #include "camera/start.h"
@@ -214,6 +215,37 @@ TEST(MonteCarlo, FixedDimensionsThatAreWrongSpoilTheIntervals) {
     errors.Add(fit.camera.parameters - cuboid.truth.parameters, SigmasOf(fit.information));
   }
   EXPECT_LT(errors.Coverage(kX0), 0.2);
+}
+
+// With few degrees of freedom: 7 for nine edges, 3 for seven.
+TEST(MonteCarlo, StudentsIntervalsCoverWhenTheNoiseIsEstimated) {
+  int chosen = 500;
+  for (const char* name : {"B1", "B4"}) {
+    const Cuboid& cuboid = CuboidOf(name);
+    Errors student, normal;
+    ++chosen;
+    for (int i = 0; i < kTrials / 2; ++i) {
+      const TracedCuboid traced = TraceCuboid(cuboid, {.sigma_px = 0.5, .seed = SeedOf(i, chosen)});
+      CalibrateOptions options;
+      options.noise_is_estimated = true;
+      const auto estimate = Calibrate(traced.photograph, traced.numbers, options);
+      ASSERT_TRUE(estimate.has_value());
+      ParameterVector sigma;
+      for (int k = 0; k < kParameters; ++k) sigma[k] = estimate->parameters[k].sigma;
+      const ParameterVector error = estimate->camera.parameters - cuboid.truth.parameters;
+      student.Add(error, sigma * estimate->quantile95 / 1.959963984540054);
+      normal.Add(error, sigma);
+    }
+    double mean = 0;
+    for (int i = 0; i < kParameters; ++i) {
+      EXPECT_NEAR(student.Coverage(i), 0.95, 0.028 * kWider) << name << " " << kParameterNames[i];
+      EXPECT_LT(normal.Coverage(i), student.Coverage(i));
+      mean += normal.Coverage(i) / static_cast<double>(kParameters);
+    }
+    EXPECT_LT(mean, 0.93);
+    std::printf("%s, noise estimated: Student's t covers %.4f of f, normal quantiles %.4f\n", name,
+                student.Coverage(kFocal), normal.Coverage(kFocal));
+  }
 }
 
 // At tilts or pans where vanishing points are far away or at infinity.
