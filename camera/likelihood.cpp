@@ -111,12 +111,12 @@ CameraFit FitCamera(const Photograph& photograph, const Numbers& numbers, const 
     // So near, χ² itself changes by less than its rounding, and each step is much smaller than the
     // one before until it is rounding, too.
     const double deviations = Deviations(step, sum.information);
-    const bool is_near = damping <= kLeastDamping && deviations < 1e-4;
+    const bool is_near = deviations < 1e-4, is_free = damping <= kLeastDamping;
     fit.converged =
         is_near && (deviations <= 1e-8 || deviations > 0.5 * last || IsWithinRounding(step, x));
-    last = is_near ? deviations : last;
+    last = is_near && is_free ? deviations : last;
     const NormalEquations there = Linearise(photograph, numbers, x + step);
-    if (is_near || there.chi2 <= sum.chi2 * (1 + 1e-13) + 1e-20) {
+    if (is_near || there.chi2 <= sum.chi2) {
       x += step;
       sum = there;
       damping = std::max(damping * 1e-4, kLeastDamping);

@@ -39,6 +39,22 @@ TEST(Likelihood, FindsTheCameraOfExactEdges) {
   }
 }
 
+TEST(Likelihood, ConvergesFromNearAndFromTheSolutionItself) {
+  for (const Cuboid& cuboid : Cuboids()) {
+    if (!cuboid.determined()) continue;
+    for (const double sigma_px : {0.01, 0.1, 0.5}) {
+      for (std::uint64_t seed = 1; seed <= 50; ++seed) {
+        const TracedCuboid traced = TraceCuboid(cuboid, {.sigma_px = sigma_px, .seed = seed});
+        const CameraFit fit = FitCamera(traced.photograph, traced.numbers, cuboid.truth);
+        const CameraFit again = FitCamera(traced.photograph, traced.numbers, fit.camera);
+        EXPECT_TRUE(fit.converged && again.converged) << cuboid.name << " " << seed;
+        EXPECT_LE(fit.iterations, 15) << cuboid.name << " " << seed;
+        EXPECT_LE(again.iterations, 5) << cuboid.name << " " << seed;
+      }
+    }
+  }
+}
+
 TEST(Likelihood, ItsInformationIsTheBenchmarksBound) {
   for (const Cuboid& cuboid : Cuboids()) {
     if (!cuboid.determined()) continue;

@@ -82,6 +82,7 @@ Errors Simulate(const Cuboid& cuboid, const Noise& noise, int chosen) {
     if (i % 50 != 0) continue;
     const CameraFit from_start =
         FitCamera(traced.photograph, traced.numbers, Starts(traced.photograph, traced.numbers)[0]);
+    EXPECT_TRUE(from_start.converged);
     EXPECT_NEAR(from_start.chi2, fit.chi2, 1e-7 * fit.chi2);
   }
   return errors;
