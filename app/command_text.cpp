@@ -34,9 +34,6 @@ std::string PlacingManner(const Command& c) {
 
 }  // namespace
 
-bool IsThere(const Command& command) {
-  return command.execute || command.history != interp::HistoryStep::kNone;
-}
 
 std::string MannerOf(const Command& c) {
   switch (c.manner) {

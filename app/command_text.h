@@ -11,8 +11,6 @@
 
 namespace tranos::app {
 
-// False for what belongs to the language but not to this version.
-bool IsThere(const interp::Command& command);
 // How it runs, in a sentence or two.
 std::string MannerOf(const interp::Command& command);
 // "`a`, `b`" of "a|b".

@@ -67,7 +67,7 @@ std::string CommandRows(F&& wanted) {
   std::string later;
   for (const Command& c : interp::AllCommands()) {
     if (!wanted(c)) continue;
-    if (IsThere(c))
+    if (c.exists())
       out += Row(c.words, kWords, c.summary);
     else
       later += (later.empty() ? "" : ", ") + Text(c.words);
@@ -104,7 +104,7 @@ std::string Relatives(const Command& c) {
   const bool wide = stem.find(' ') == stem.npos;
   std::string out;
   for (const Command& other : interp::AllCommands()) {
-    if (&other == &c || !IsThere(other)) continue;
+    if (&other == &c || !other.exists()) continue;
     const bool longer = other.words.starts_with(Text(c.words) + " ");
     const bool sister = !wide && (other.words == stem || other.words.starts_with(Text(stem) + " "));
     if (longer || sister) out += (out.empty() ? "" : ", ") + Text(other.words);
@@ -124,7 +124,7 @@ bool Speaks(std::string_view text, const std::string& word) {
 
 std::string HelpOf(const Command& c) {
   std::string out = Text(c.words) + "\n" + Wrap("", 2, c.summary);
-  if (!IsThere(c))
+  if (!c.exists())
     return out + "\n  Part of the language; not carried out by this version (E0001).\n";
   out += "\n" + Wrap("", 2, MannerOf(c));
   if (!c.options.empty()) out += Wrap("", 2, "Words: " + QuotedWords(c.options) + ".");

@@ -28,7 +28,7 @@ std::string ExampleBlock(const interp::Example& example) {
 
 std::string CommandSection(const Command& c) {
   std::string out = "### " + Text(c.words) + "\n\n" + Text(c.summary) + "\n\n";
-  if (!IsThere(c))
+  if (!c.exists())
     return out + "Part of the language; not carried out by this version (E0001).\n\n";
   out += MannerOf(c) + "\n\n";
   if (!c.options.empty()) out += "Words: " + QuotedWords(c.options) + ".\n\n";

@@ -48,8 +48,10 @@ std::vector<Quantity> QuantitiesOfAll(std::span<const Photograph> photographs,
     }
   }
   for (int i = 0; i < layout.unknowns; ++i) {
+    // A literal's error is near zero, so that its value says nothing of its size.
     const double value = std::abs(refined.state[layout.unknown_column() + i]);
-    quantities.push_back({Quantity::Kind::kUnknown, value > 0 ? value : 1.0,
+    const double scale = unknowns[i].sigma > 0 ? unknowns[i].sigma : std::max(value, 1e-3);
+    quantities.push_back({Quantity::Kind::kUnknown, scale,
                           unknowns[i].name.empty() ? "a dimension" : "`" + unknowns[i].name + "`"});
   }
   quantities.resize(static_cast<std::size_t>(layout.columns));

@@ -579,7 +579,6 @@ Operand Binder::ConvertedOperand(Operand operand, Type type, bool list, std::str
 Operand Binder::TypedWord(NodeId value, std::string_view words, std::string_view name) {
   if (KindOf(value) == NodeKind::kName) {
     const std::string word = Text(value);
-    if (words.empty()) return AddText(word);  // an open word: a name that this declares
     for (const std::string& known : SplitWords(words)) {
       if (LowerCase(word) == LowerCase(known)) return AddText(known);
     }
@@ -601,6 +600,9 @@ Operand Binder::Typed(const std::vector<NodeId>& values, Type type, bool list,
   const bool gathers = list || type == Type::kPoint || type == Type::kScale ||
                        type == Type::kSize || type == Type::kElements || type == Type::kPoints;
   if (type == Type::kWord && values.size() == 1 && !list) return TypedWord(values[0], words, name);
+  if (type == Type::kName && values.size() == 1 && KindOf(values[0]) == NodeKind::kName) {
+    return AddText(Text(values[0]));
+  }
   // A number that may also be said by a word; within an expression the word is the whole, 1.
   if (!words.empty() && values.size() == 1 && KindOf(values[0]) == NodeKind::kName &&
       HasWord(words, Text(values[0]))) {

@@ -83,8 +83,8 @@ std::string ParameterLine(const camera::Estimate& estimate, Parameter parameter,
   if (known.free()) return fmt::format("{:>3}  not determined", row.symbol);
   const std::string unit =
       row.unit.empty() || row.unit == "°" ? std::string(row.unit) : " " + std::string(row.unit);
-  std::string line = fmt::format("{:>3} {:12.5f}{}", row.symbol,
-                                 estimate.camera[parameter] / row.per_unit, unit);
+  std::string line =
+      fmt::format("{:>3} {:12.5f}{}", row.symbol, estimate.camera[parameter] / row.per_unit, unit);
   if (stated || estimate.covariance.size() == 0) return line;
   line += fmt::format(" ± {:.5f}{}  {}", known.sigma / row.per_unit, unit, ShareText(known.shares));
   if (known.from_prior) line += ", held by a prior alone";

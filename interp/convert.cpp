@@ -34,6 +34,7 @@ std::string_view ExampleOf(Type type) {
     case Type::kBoolean:
       return "true or false";
     case Type::kString:
+    case Type::kName:
     case Type::kWord:
       return "a string such as \"north\"";
     case Type::kColor:
@@ -222,6 +223,7 @@ Value Convert(const Value& value, Type type, const Unit& unit, std::string_view 
     case Type::kBoolean:
       return OfKind(target, value, Value::Kind::kBoolean);
     case Type::kWord:
+    case Type::kName:
       return OfKind(target, value, Value::Kind::kString);
     case Type::kString:
     case Type::kLabel:

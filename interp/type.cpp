@@ -28,6 +28,7 @@ constexpr std::array kNames = {
     TypeName{Type::kRange, "range", "a range"},
     TypeName{Type::kPlane, "plane", "a plane"},
     TypeName{Type::kWord, "word", "a word"},
+    TypeName{Type::kName, "", "a name"},
     TypeName{Type::kAny, "", "a value"},
     TypeName{Type::kPixel, "", "a number of pixels"},
     TypeName{Type::kLabel, "", "a string or a number"},

@@ -27,6 +27,7 @@ enum class Type : std::uint8_t {
   kRange,
   kPlane,
   kWord,      // one of a closed list
+  kName,      // an open word, or a string
   kLabel,     // a level or material: a string or a number
   kScale,     // one or three plain numbers
   kElements,  // an element or a list of them

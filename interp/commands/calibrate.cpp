@@ -63,21 +63,32 @@ constexpr Key kCalibrateKeys[] = {
     {"trials", Type::kCount, "also resample the dots so many times (the paper's Step I)", {}, "0"}};
 constexpr Key kRecoverKeys[] = {
     {"photo", Type::kElement, "the photograph; the one last attached or set without"},
-    {"facade", Type::kWord, "the facade that is before the camera"},
+    {"facade", Type::kName, "the facade that is before the camera"},
     {"near", Type::kPoint, "about where the camera stood"}};
 
+#define TRANOS_HALL                                                              \
+  "attach photo \"facade.png\" format=36mm,24.0075mm as hall\n"                  \
+  "trace edge from=[0,0,0] to=[10,0,0] dot=294.55,965.37 dot=759.31,986.42\n"    \
+  "trace edge from=[0,0,6] to=[10,0,6] dot=312.18,655.51 dot=758.21,628.27\n"    \
+  "trace edge from=[0,0,0] to=[0,0,6] dot=294.55,965.37 dot=312.18,655.51\n"     \
+  "trace edge from=[10,0,0] to=[10,0,6] dot=759.31,986.42 dot=758.21,628.27\n"   \
+  "trace edge from=[10,0,0] to=[10,14,0] dot=759.31,986.42 dot=1014.05,948.66\n" \
+  "trace edge from=[10,0,6] to=[10,14,6] dot=758.21,628.27 dot=1005.25,704.29\n" \
+  "trace edge from=[10,14,0] to=[10,14,6] dot=1014.05,948.66 dot=1005.25,704.29\n"
+
 constexpr Example kCalibrateExamples[] = {
-    {"attach photo \"facade.png\" format=36mm,24mm as hall\n"
-     "trace edge from=[0,0,0] to=[10,0,0] dot=211,690 dot=1013,905\n"
-     "trace rectangle a=10m b=6m dot=211,690 dot=1013,905 dot=1025,300 dot=230,290\n"
-     "calibrate",
-     "not hall.determined"},
+    {TRANOS_HALL "calibrate", "hall.focal consistent 35mm"},
+    {TRANOS_HALL "calibrate method=sweep skew=88.5deg..89.5deg step=0.05deg",
+     "hall.focal within 35mm +- 1mm"},
+    {TRANOS_HALL "calibrate robust=true trials=10", "hall.determined"},
     {"calibrate", "E0901"}};
 constexpr Example kRecoverExamples[] = {
     {"place camera f=35mm format=36mm,24mm size=1600,1067 xy=10,-30,2 as paper\n"
-     "set camera paper; recover camera facade=front",
+     "recover camera photo=paper facade=front",
      "paper.y == -30m"},
+    {TRANOS_HALL "calibrate; recover camera near=[20,-25,2]", "hall.y < -20m"},
     {"recover camera facade=front", "E0901"}};
+#undef TRANOS_HALL
 
 constexpr Command kCommands[] = {
     {.words = "calibrate",

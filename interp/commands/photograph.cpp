@@ -268,7 +268,7 @@ CommandResult StepCamera(const State& state, const Answers& answers) {
   const auto penalty = PenaltyOf(state, **found, before);
   const auto after = PenaltyOf(state, **found, estimate->camera);
   fired.messages.push_back(penalty && after
-                               ? fmt::format("penalty {:.6g}, was {:.6g}", *after, *penalty)
+                               ? fmt::format("penalty {:.4f}, was {:.4f}", *after, *penalty)
                                : "no edge with a place in space is traced: no penalty");
   changed.estimate = std::move(estimate);
   fired.edit.replaced.push_back(WithPhotograph(**found, std::move(changed)));
@@ -310,7 +310,8 @@ constexpr Key kPhotoKeys[] = {kPhotoKey};
 constexpr Key kPriorKeys[] = {
     kPhotoKey,
     {"aspect", Type::kNumber, "f in y by f in x, with its deviation"},
-    {"principal", Type::kNumber, "centre +- a share of the frame's width and height", "centre"},
+    {"principal", Type::kNumber, "the principal point: `centre +-` a share of the width and height",
+     "centre"},
     {"skew", Type::kAngle, "the angle between the dot's axes, with its deviation"},
     {"focal", Type::kLength, "the focal length, with its deviation"}};
 
@@ -325,8 +326,9 @@ constexpr auto StepKeys() {
 constexpr auto kStepKeys = StepKeys();
 
 #define TRANOS_CAMERA                                                          \
-  "place camera f=35mm format=36mm,24mm size=1600,1067 phi=30deg omega=20deg " \
-  "xy=10,-30,2 as paper\n"
+  "place camera f=35mm format=36mm,24mm size=1600,1067 aspect=1.01 skew=89deg" \
+  " principal=0mm,1mm phi=30deg omega=20deg kappa=1deg xy=10,-30,2 as paper\n"
+#define TRANOS_PHOTO "attach photo \"facade.png\" as hall\n"
 
 constexpr Example kAttachExamples[] = {
     {"attach photo \"facade.png\" format=36mm,24mm as hall", "hall.width == 1600px"},
@@ -335,18 +337,24 @@ constexpr Example kPlaceCameraExamples[] = {
     {TRANOS_CAMERA, "paper.focal == 35mm"},
     {"place camera f=0mm format=36mm,24mm size=1600,1067 xy=0,0,0", "E0212"}};
 constexpr Example kSetCameraExamples[] = {{TRANOS_CAMERA "set camera paper", "true"},
+                                          {TRANOS_CAMERA "set camera photo=paper", "true"},
                                           {"set camera hall", "E0201"}};
 constexpr Example kPriorExamples[] = {
-    {"attach photo \"facade.png\" as hall; prior aspect = 1 +- 3%; prior principal = centre +- 5%",
+    {TRANOS_PHOTO "prior photo=hall aspect=1 +- 3% principal=centre +- 5%"
+                  " skew=90deg +- 1deg focal=40mm +- 10%",
      "true"},
-    {"attach photo \"facade.png\" as hall; prior aspect = 1", "E0212"}};
-constexpr Example kReportExamples[] = {
-    {TRANOS_CAMERA "report camera paper", "true"},
-    {"attach photo \"facade.png\" as hall; report camera hall", "E0902"}};
+    {TRANOS_PHOTO "prior default", "true"},
+    {TRANOS_PHOTO "prior aspect=1", "E0212"}};
+constexpr Example kReportExamples[] = {{TRANOS_CAMERA "report camera paper", "true"},
+                                       {TRANOS_CAMERA "report camera photo=paper", "true"},
+                                       {TRANOS_PHOTO "report camera hall", "E0902"}};
 constexpr Example kStepExamples[] = {
-    {TRANOS_CAMERA "step camera paper omega=0.5deg", "paper.omega == 20.5deg"},
+    {TRANOS_CAMERA "step camera paper omega=0.5deg phi=0deg kappa=0deg", "paper.omega == 20.5deg"},
+    {TRANOS_CAMERA "step camera photo=paper f=1mm aspect=0.01 u=0mm v=0mm skew=1deg x=1 y=1 z=1",
+     "paper.focal within 36mm +- 1e-9mm"},
     {TRANOS_CAMERA "step camera paper", "E0220"}};
 
+#undef TRANOS_PHOTO
 #undef TRANOS_CAMERA
 
 constexpr Command kCommands[] = {

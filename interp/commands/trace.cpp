@@ -195,7 +195,7 @@ CommandResult TraceCircle(const State& state, const Answers& answers) {
 
 constexpr Key kPhoto = {"photo", Type::kElement,
                         "the photograph; the one last attached or set without"};
-constexpr Key kFacade = {"facade", Type::kWord, "the facade that it lies on", {}, "main"};
+constexpr Key kFacade = {"facade", Type::kName, "the facade that it lies on", {}, "main"};
 constexpr Key kEdgeKeys[] = {
     {"from", Type::kPoint, "where the edge begins"},
     {"to", Type::kPoint, "where it ends"},
@@ -216,32 +216,39 @@ constexpr Key kRatioKeys[] = {
 
 constexpr Prompt kDots[] = {{"dot"}};
 
-#define TRANOS_PHOTO "attach photo \"facade.png\" format=36mm,24mm\n"
+#define TRANOS_PHOTO "attach photo \"facade.png\" format=36mm,24mm as hall\n"
 constexpr Example kEdgeExamples[] = {
-    {TRANOS_PHOTO "trace edge x dot=102.5,211.0 dot=340.2,188.4 as sill", "len(sill.dots) == 2"},
+    {TRANOS_PHOTO "trace edge x samples=edge photo=hall dot=102.5,211.0 dot=340.2,188.4 as sill",
+     "len(sill.dots) == 2"},
     {TRANOS_PHOTO "trace edge from=[0,0,0] to=[0,14m,0] dot=102,211 dot=340,188", "true"},
+    {TRANOS_PHOTO "place line xy=0,0,6 dl=10 as eaves; trace edge of=eaves dot=102,211 dot=340,188",
+     "true"},
     {TRANOS_PHOTO "trace edge x dot=102,211", "E0402"}};
 constexpr Example kPointExamples[] = {
-    {TRANOS_PHOTO "trace point at=[0,0,6m] dot=211,290", "len(last.dots) == 1"},
+    {TRANOS_PHOTO "trace point at=[0,0,6m] photo=hall dot=211,290 as corner",
+     "len(corner.dots) == 1"},
     {TRANOS_PHOTO "trace point at=[0,0,6m] dot=21100,290", "E0903"}};
 constexpr Example kRectangleExamples[] = {
-    {TRANOS_PHOTO "trace rectangle a=1.20m b=2.10m dot=100,400 dot=180,390 dot=180,250 dot=100,260 "
-                  "as door",
+    {TRANOS_PHOTO "trace rectangle a=1.20m b=2.10m facade=front photo=hall\n"
+                  "dot=100,400 dot=180,390 dot=180,250 dot=100,260 as door",
      "len(door.dots) == 4"},
     {TRANOS_PHOTO "trace rectangle a=1.20m b=2.10m dot=100,400 dot=180,250 dot=180,390 dot=100,260",
      "E0903"}};
 constexpr Example kEqualExamples[] = {
-    {TRANOS_PHOTO "trace equal dot=100,400 dot=180,390 dot=100,400.5 dot=100,320", "true"},
+    {TRANOS_PHOTO "trace equal facade=front photo=hall\n"
+                  "dot=100,400 dot=180,390 dot=100,400.5 dot=100,320",
+     "true"},
     {TRANOS_PHOTO "trace equal dot=100,400 dot=180,390 dot=100,320", "E0402"}};
 constexpr Example kRatioExamples[] = {
-    {TRANOS_PHOTO "trace ratio value=1.5 dot=100,400 dot=180,390 dot=100,400.5 dot=100,350",
+    {TRANOS_PHOTO "trace ratio value=1.5 facade=front photo=hall\n"
+                  "dot=100,400 dot=180,390 dot=100,400.5 dot=100,350",
      "true"},
     {TRANOS_PHOTO "trace ratio value=0 dot=100,400 dot=180,390 dot=100,400.5 dot=100,350",
      "E0903"}};
 constexpr Example kCircleExamples[] = {
-    {TRANOS_PHOTO "trace circle facade=front dot=100,50 dot=150,100 dot=100,150 dot=50,100 "
-                  "dot=135,64",
-     "len(last.dots) == 5"},
+    {TRANOS_PHOTO "trace circle facade=front photo=hall\n"
+                  "dot=100,50 dot=150,100 dot=100,150 dot=50,100 dot=135,64 as oculus",
+     "len(oculus.dots) == 5"},
     {TRANOS_PHOTO "trace circle dot=100,50 dot=150,100", "E0402"}};
 #undef TRANOS_PHOTO
 

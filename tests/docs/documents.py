@@ -8,6 +8,7 @@ Usage: documents.py TRANOS ROOT. Prints a line for each breach; the status is 1 
 import json
 import re
 import shlex
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -20,6 +21,7 @@ GENERATED = "reference.md"  # its examples are run by the command table's own te
 MAX_PICTURE_BYTES = 150_000
 MAX_SCRIPT_LINES = 60
 VERBATIM = "cruciform_dome.trn"
+PHOTOGRAPH = Path(__file__).parent.parent / "language/photograph/facade.png"
 SECONDS = 60
 
 FENCE = re.compile(r"^```(.*)$")
@@ -147,6 +149,8 @@ def check_block(tranos, block, beside):
     with tempfile.TemporaryDirectory() as folder:
         for name, text in beside.items():
             Path(folder, name).write_text(text, encoding="utf-8")
+        if PHOTOGRAPH.name in block.text:
+            shutil.copy(PHOTOGRAPH, folder)
         script = Path(folder, "example.trn")
         script.write_text(block.text, encoding="utf-8")
         printed, said, report = run(tranos, script, expected.arguments)

@@ -11,7 +11,7 @@ namespace {
 
 bool IsCode(std::string_view expect) { return FindCode(expect).has_value(); }
 bool IsCarriedOut(const Command& row) {
-  return row.execute != nullptr || row.history != HistoryStep::kNone;
+  return row.exists();
 }
 
 TEST(Row, WordsAreUniqueLowerCaseAndFound) {
@@ -66,7 +66,10 @@ TEST(Row, KeysAreDeclaredSoundly) {
       EXPECT_TRUE(names.insert(key.name).second) << row.words << " " << key.name;
       EXPECT_FALSE(key.summary.empty()) << row.words << " " << key.name;
       EXPECT_LT(key.prompt, static_cast<int>(row.prompts.size())) << row.words;
-      EXPECT_EQ(key.type == Type::kWord, !key.words.empty()) << row.words << " " << key.name;
+      // A closed list of words, or a few that say a number.
+      const bool counts = key.type == Type::kCount || key.type == Type::kNumber;
+      EXPECT_TRUE(counts || (key.type == Type::kWord) == !key.words.empty())
+          << row.words << " " << key.name;
     }
     EXPECT_TRUE(row.string_key.empty() || names.contains(row.string_key)) << row.words;
   }
@@ -113,7 +116,7 @@ TEST(Row, PromptsFitTheManner) {
 TEST(Row, LaterCommandsAreKnown) {
   for (const std::string_view words :
        {"place ellipse", "place wall", "create region", "fillet", "construct solid from surfaces",
-        "attach photo", "trace edge", "calibrate", "recover camera", "set facade", "plot"}) {
+        "recover facade", "detect edges", "set facade", "plot"}) {
     const Command* row = FindCommand(words);
     ASSERT_NE(row, nullptr) << words;
     EXPECT_FALSE(IsCarriedOut(*row)) << words;
