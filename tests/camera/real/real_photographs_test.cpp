@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Cameras of real photographs under the same assumptions for every one; README.md has the tables.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tests/camera/real/results.h"
+
+namespace tranos::camera::real {
+namespace {
+
+class RealPhotographs : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (!data_) GTEST_SKIP() << "skipped: no test photographs";
+  }
+  const std::filesystem::path& data() const { return *data_; }
+
+ private:
+  std::optional<std::filesystem::path> data_ = DataFolder();
+};
+
+// DESIGN.md's figures for detected segments of 102 such photographs with these priors.
+TEST_F(RealPhotographs, OfYorkGiveTheFocalLengthWithinAFewPerCent) {
+  const std::vector<Known> known = YorkUrban(data());
+  ASSERT_EQ(known.size(), 51u);
+  for (const Loss loss : {Loss::kNone, Loss::kHuber, Loss::kCauchy}) {
+    const auto errors = FocalErrors(FoundCameras(known, loss), known, Undetermined::kLikeliest);
+    EXPECT_LE(Quantile(errors, 0.5), 0.025);
+    EXPECT_LE(Quantile(errors, 0.75), 0.048);
+    EXPECT_LE(Quantile(errors, 0.9), 0.082);
+  }
+}
+
+TEST_F(RealPhotographs, OfYorkMostlyDetermineTheFocalLength) {
+  const std::vector<Known> known = YorkUrban(data());
+  const std::vector<Found> found = FoundCameras(known);
+  const auto errors = FocalErrors(found, known, Undetermined::kInfinite);
+  EXPECT_LE(std::ranges::count(found, false, &Found::is_determined), 5);
+  EXPECT_LE(Quantile(errors, 0.5), 0.025);
+  EXPECT_LE(Quantile(errors, 0.75), 0.048);
+  EXPECT_LE(Quantile(errors, 0.9), 0.13);
+}
+
+// Where the focal length is open, a facade is seen from the front or nearly so: two of the three
+// vanishing points are far away, and what is left does not tell.
+TEST_F(RealPhotographs, OfYorkThatLeaveTheFocalLengthOpenAreFrontal) {
+  const std::vector<Known> known = YorkUrban(data());
+  const std::vector<Found> found = FoundCameras(known);
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    if (found[i].is_determined) continue;
+    // The camera's axis, in the world: near one of the horizontal directions.
+    const Vec3 axis = known[i].camera_from_world.row(2).cwiseAbs();
+    EXPECT_GT(axis.head<2>().maxCoeff(), std::cos(20 * kPi / 180)) << found[i].name;
+  }
+}
+
+TEST_F(RealPhotographs, OfTheCastleGiveFocalLengthAndRotation) {
+  const std::vector<Known> known = Castle(data());
+  ASSERT_EQ(known.size(), 8u);
+  const std::vector<Found> found = FoundCameras(known);
+  EXPECT_LE(Quantile(FocalErrors(found, known, Undetermined::kInfinite), 0.5), 0.02);
+  EXPECT_LE(Quantile(UprightErrors(found, known), 0.5), 0.5);
+  EXPECT_LE(Quantile(RotationErrors(found, known), 0.5), 0.6);
+  EXPECT_LE(Quantile(RelativeRotationErrors(found, known), 0.5), 0.6);
+  EXPECT_GE(Coverage(found, known), 7.0 / 8);
+}
+
+TEST_F(RealPhotographs, OfFspyGiveItsCameraUnderItsAssumptions) {
+  const Known known = ShiftedLandscape(data());
+  for (const auto& camera : {SquareByOrthocentre(known), SquareByLikelihood(known)}) {
+    ASSERT_TRUE(camera);
+    EXPECT_NEAR(camera->focal_px, 1976.23, 0.001 * 1976.23);
+    EXPECT_NEAR(camera->focal_px, known.focal_px, 1e-3);
+    // fSpy counts from the picture's corner, half a dot before the middle of the first.
+    EXPECT_NEAR(camera->principal_px.x() + 0.5, 1813.05, 0.5);
+    EXPECT_NEAR(camera->principal_px.y() + 0.5, 907.21, 0.5);
+    EXPECT_LT((camera->principal_px - known.principal_px).norm(), 1e-3);
+  }
+}
+
+TEST_F(RealPhotographs, OfATowerGiveTheSameCameraAsAnIndependentSolution) {
+  const Known known = Tower(data());
+  for (const auto& camera : {SquareByOrthocentre(known), SquareByLikelihood(known)}) {
+    ASSERT_TRUE(camera);
+    EXPECT_NEAR(camera->focal_px, known.focal_px, 2e-3);
+    EXPECT_LT((camera->principal_px - known.principal_px).norm(), 2e-3);
+  }
+}
+
+}  // namespace
+}  // namespace tranos::camera::real

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Cameras found from real photographs' edges by `Calibrate` under `prior default`, and how far they
+// are from the truth. One noise model and one loss for every photograph.
+#pragma once
+
+#include "camera/calibrate.h"
+#include "tests/camera/real/photographs.h"
+
+namespace tranos::camera::real {
+
+// The photograph with its edges as traces. Ends were set by hand or by a line detector, so each is
+// off by the same deviation, whatever the edge's length, and how large that is, is estimated from
+// the residuals. The longest upright edge is two points, the origin and 3 m above it: that says as
+// much of the directions as a trace of direction would, and fixes place and scale besides, which
+// directions leave open.
+struct Traced {
+  Photograph photograph;
+  Numbers numbers;
+};
+Traced TracedEdges(const Known&);
+
+// Aspect 1 ± 3 %, principal point in the middle ± 5 % of width and height, axes at 90° ± 1°.
+void AssumeDefaults(Photograph&);
+
+struct Found {
+  std::string name;
+  bool is_found = false;       // nothing below means anything otherwise
+  bool is_determined = false;  // the focal length, by data and priors
+  int edges = 0;
+  double focal_px = 0;  // in x
+  double sigma_px = 0;  // of it, where it is determined
+  double noise_px = 0;
+  Mat3 camera_from_world = Mat3::Identity();
+};
+// With the noise estimated. Edges that `Calibrate` tells are others again are left out. Where it
+// does not determine the focal length, this is the likeliest under the same priors and noise.
+Found FoundCamera(const Known&, Loss = Loss::kHuber);
+std::vector<Found> FoundCameras(const std::vector<Known>&, Loss = Loss::kHuber);
+
+// Relative; infinite where no camera was found, or, on request, its focal length not determined.
+enum class Undetermined { kLikeliest, kInfinite };
+std::vector<double> FocalErrors(const std::vector<Found>&, const std::vector<Known>&, Undetermined);
+
+// Degrees between the true rotation and the one found, after the signs of the axes in which they
+// agree best.
+double RotationErrorUpToSigns(const Mat3& found, const Mat3& truth);
+// For every two photographs, degrees between the true and the found turn from one to the other.
+std::vector<double> RelativeRotationErrors(const std::vector<Found>&, const std::vector<Known>&);
+// For every photograph, degrees between the true and the found rotation from the castle's frame:
+// its Z is the true upright, its azimuth, which no survey tells, the mean of those found.
+std::vector<double> RotationErrors(const std::vector<Found>&, const std::vector<Known>&);
+// For every photograph, degrees between the true upright direction and the one found.
+std::vector<double> UprightErrors(const std::vector<Found>&, const std::vector<Known>&);
+
+// A camera with square pixels and dots' axes at a right angle, from directions alone, none of its
+// principal point assumed: by the self-polar triangle, and by `Calibrate` with both held by priors
+// of a millionth. Nothing where there is no such camera.
+struct Square {
+  double focal_px;
+  Vec2 principal_px;
+};
+std::optional<Square> SquareByOrthocentre(const Known&);
+std::optional<Square> SquareByLikelihood(const Known&);
+
+// The share of the determined focal lengths whose stated deviation, times 1.96, covers the truth.
+double Coverage(const std::vector<Found>&, const std::vector<Known>&);
+
+// The value that a share `p` of them does not exceed, between neighbours in proportion.
+double Quantile(std::vector<double> values, double p);
+
+}  // namespace tranos::camera::real
