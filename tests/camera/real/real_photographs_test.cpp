@@ -42,6 +42,16 @@ TEST_F(RealPhotographs, OfYorkMostlyDetermineTheFocalLength) {
   EXPECT_LE(Quantile(errors, 0.9), 0.13);
 }
 
+TEST_F(RealPhotographs, GiveTheSameFocalLengthWhetherPlaceAndScaleAreKnownOrNot) {
+  for (const Known& known : YorkUrban(data())) {
+    const Found without = FoundCamera(TracedDirections(known), Loss::kNone);
+    const Found with = FoundCamera(TracedEdges(known), Loss::kNone);
+    EXPECT_EQ(without.is_determined, with.is_determined);
+    if (!with.is_determined) continue;
+    EXPECT_NEAR(without.focal_px, with.focal_px, 0.01 * with.sigma_px) << known.name;
+  }
+}
+
 // Where the focal length is open, a facade is seen from the front or nearly so: two of the three
 // vanishing points are far away, and what is left does not tell.
 TEST_F(RealPhotographs, OfYorkThatLeaveTheFocalLengthOpenAreFrontal) {

@@ -29,17 +29,6 @@ void SetNoise(Photograph& photograph, double sigma_px) {
   }
 }
 
-Photograph DirectionsOf(const Known& known) {
-  Photograph photograph;
-  photograph.name = known.name;
-  photograph.frame = known.frame;
-  for (const Segment& segment : known.segments) {
-    const auto line = FitImageLine({segment.a_px, segment.b_px}, kEndSigmaPx);
-    if (line) photograph.traces.push_back(DirectionTrace{*line, segment.axis});
-  }
-  return photograph;
-}
-
 Square SquareOf(const Camera& camera, const Frame& frame) {
   return {camera[kFocal] / frame.pitch_mm().x(),
           frame.DotFromPoint({camera[kPrincipalX], camera[kPrincipalY]})};
@@ -52,22 +41,27 @@ bool IsTwice(const geom::Error& error, const Photograph& photograph) {
 
 }  // namespace
 
-Traced TracedEdges(const Known& known) {
+Traced TracedDirections(const Known& known) {
   Traced traced;
   traced.photograph.name = known.name;
   traced.photograph.frame = known.frame;
+  for (const Segment& segment : known.segments) {
+    const auto line = FitImageLine({segment.a_px, segment.b_px}, kEndSigmaPx);
+    if (line) traced.photograph.traces.push_back(DirectionTrace{*line, segment.axis});
+  }
+  return traced;
+}
+
+Traced TracedEdges(const Known& known) {
+  Known others = known;
   const auto upright_length = [](const Segment& s) {
     return s.axis == 2 ? (s.b_px - s.a_px).norm() : 0.0;
   };
-  const auto longest = std::ranges::max_element(known.segments, {}, upright_length);
-  for (auto segment = known.segments.begin(); segment != known.segments.end(); ++segment) {
-    const auto line = FitImageLine({segment->a_px, segment->b_px}, kEndSigmaPx);
-    if (segment != longest && line)
-      traced.photograph.traces.push_back(DirectionTrace{*line, segment->axis});
-  }
-  const bool a_is_below = longest->a_px.y() > longest->b_px.y();
-  const Vec2 &below = a_is_below ? longest->a_px : longest->b_px,
-             &above = a_is_below ? longest->b_px : longest->a_px;
+  const auto longest = std::ranges::max_element(others.segments, {}, upright_length);
+  Vec2 below = longest->a_px, above = longest->b_px;
+  if (below.y() < above.y()) std::swap(below, above);
+  others.segments.erase(longest);
+  Traced traced = TracedDirections(others);
   traced.photograph.traces.push_back(PointTrace{below, kEndSigmaPx, 0});
   traced.photograph.traces.push_back(PointTrace{above, kEndSigmaPx, 3});
   traced.numbers = {(Eigen::VectorXd(6) << 0, 0, 0, 0, 0, 3).finished(), Eigen::MatrixXd(6, 0)};
@@ -82,8 +76,7 @@ void AssumeDefaults(Photograph& photograph) {
   photograph.priors[kSkew] = {kPi / 2, kPi / 180};
 }
 
-Found FoundCamera(const Known& known, Loss loss) {
-  Traced traced = TracedEdges(known);
+Found FoundCamera(Traced traced, Loss loss) {
   Photograph& photograph = traced.photograph;
   AssumeDefaults(photograph);
   CalibrateOptions options;
@@ -96,8 +89,10 @@ Found FoundCamera(const Known& known, Loss loss) {
     estimate = Calibrate(photograph, traced.numbers, options);
   }
   Found found;
-  found.name = known.name;
-  found.edges = static_cast<int>(photograph.traces.size()) - 1;  // one of them is two points
+  found.name = photograph.name;
+  found.edges = static_cast<int>(std::ranges::count_if(
+      photograph.traces, [](const Trace& t) { return std::holds_alternative<DirectionTrace>(t); }));
+  found.edges += traced.numbers.values.size() > 0 ? 1 : 0;
   if (!estimate) return found;
   Camera camera = estimate->camera;
   found.is_determined = !estimate->parameters[kFocal].free();
@@ -105,7 +100,7 @@ Found FoundCamera(const Known& known, Loss loss) {
     SetNoise(photograph, estimate->noise_px);
     camera = FitCamera(photograph, traced.numbers, camera).camera;
   }
-  const double pitch_mm = known.frame.pitch_mm().x();
+  const double pitch_mm = photograph.frame.pitch_mm().x();
   found.focal_px = camera[kFocal] / pitch_mm;
   found.sigma_px = estimate->parameters[kFocal].sigma / pitch_mm;
   found.noise_px = estimate->noise_px;
@@ -116,7 +111,7 @@ Found FoundCamera(const Known& known, Loss loss) {
 
 std::vector<Found> FoundCameras(const std::vector<Known>& photographs, Loss loss) {
   std::vector<Found> found;
-  for (const Known& known : photographs) found.push_back(FoundCamera(known, loss));
+  for (const Known& known : photographs) found.push_back(FoundCamera(TracedEdges(known), loss));
   return found;
 }
 
@@ -194,7 +189,7 @@ std::vector<double> UprightErrors(const std::vector<Found>& found,
 }
 
 std::optional<Square> SquareByOrthocentre(const Known& known) {
-  const auto camera = CalibrateOrthocentre(DirectionsOf(known), {});
+  const auto camera = CalibrateOrthocentre(TracedDirections(known).photograph, {});
   if (!camera) return {};
   return SquareOf(*camera, known.frame);
 }

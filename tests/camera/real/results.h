@@ -18,6 +18,8 @@ struct Traced {
   Numbers numbers;
 };
 Traced TracedEdges(const Known&);
+// The same with every edge a trace of direction, place and scale left open.
+Traced TracedDirections(const Known&);
 
 // Aspect 1 ± 3 %, principal point in the middle ± 5 % of width and height, axes at 90° ± 1°.
 void AssumeDefaults(Photograph&);
@@ -34,7 +36,7 @@ struct Found {
 };
 // With the noise estimated. Edges that `Calibrate` tells are others again are left out. Where it
 // does not determine the focal length, this is the likeliest under the same priors and noise.
-Found FoundCamera(const Known&, Loss = Loss::kHuber);
+Found FoundCamera(Traced, Loss = Loss::kHuber);
 std::vector<Found> FoundCameras(const std::vector<Known>&, Loss = Loss::kHuber);
 
 // Relative; infinite where no camera was found, or, on request, its focal length not determined.

@@ -41,7 +41,7 @@ void PrintEachOfYork(const std::vector<Known>& known) {
   fmt::print("\n| photograph | edges | noise, px | f, px | error | rotation |\n");
   fmt::print("|---|---|---|---|---|---|\n");
   for (const Known& k : known) {
-    const Found f = FoundCamera(k);
+    const Found f = FoundCamera(TracedEdges(k));
     fmt::print("| {} | {} | {:.2f} | {} | {:.2f}° |\n", f.name, f.edges, f.noise_px, Focal(f, k),
                RotationErrorUpToSigns(f.camera_from_world, k.camera_from_world));
   }
