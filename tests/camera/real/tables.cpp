@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 #include "tests/camera/real/results.h"
@@ -10,8 +11,16 @@
 namespace tranos::camera::real {
 namespace {
 
+double LargestFinite(const std::vector<double>& errors) {
+  double largest = 0;
+  for (const double e : errors) {
+    if (std::isfinite(e)) largest = std::max(largest, e);
+  }
+  return largest;
+}
+
 void PrintYork(const std::vector<Known>& known) {
-  fmt::print("| loss | focal length | median | third quartile | 90 % | largest |\n");
+  fmt::print("| loss | focal length | median | third quartile | 90 % | largest finite |\n");
   fmt::print("|---|---|---|---|---|---|\n");
   constexpr std::pair<Loss, const char*> kLosses[] = {
       {Loss::kNone, "none"}, {Loss::kHuber, "Huber"}, {Loss::kCauchy, "Cauchy"}};
@@ -21,7 +30,7 @@ void PrintYork(const std::vector<Known>& known) {
       const std::vector<double> errors = FocalErrors(found, known, undetermined);
       const auto percent = [&](double p) { return 100 * Quantile(errors, p); };
       fmt::print("| {} | {} | {:.2f} % | {:.2f} % | {:.2f} % | {:.1f} % |\n", name, which,
-                 percent(0.5), percent(0.75), percent(0.9), percent(1));
+                 percent(0.5), percent(0.75), percent(0.9), 100 * LargestFinite(errors));
     };
     print("the likeliest", Undetermined::kLikeliest);
     print(fmt::format("infinite error where not determined ({} of {})",
