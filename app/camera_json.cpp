@@ -102,6 +102,12 @@ ordered_json CameraJson(const model::Element& element, const model::Photograph& 
     json["alternatives"].push_back(std::move(alternative));
   }
   json["unknowns"] = UnknownsJson(estimate);
+  if (!estimate.profile.empty()) {
+    json["profile"] = ordered_json::array();
+    for (const camera::ProfilePoint& point : estimate.profile) {
+      json["profile"].push_back({point.alpha_rad * 180 / geom::kPi, point.chi2});
+    }
+  }
   json["undetermined"] = estimate.undetermined;
   json["warnings"] = estimate.warnings;
   if (estimate.facade_homography.isZero(0)) return json;

@@ -47,7 +47,7 @@ double StepOf(double value) { return 1e-6 * std::max(1.0, std::abs(value)); }
 class Machine::TrialRun {
  public:
   TrialRun(const Machine& main, const Host& silent, const Trial& trial)
-      : options_{main.budget_.limits, {}, {}}, machine_(main.program_, options_, silent) {
+      : options_{main.budget_.limits, {}, {}, {}}, machine_(main.program_, options_, silent) {
     options_.limits.steps = main.budget_.steps_left;
     machine_.budget_ = Budget(options_.limits);
     machine_.trial_ = &trial;
@@ -274,6 +274,10 @@ Fired Machine::Calibrate(const Answers& answers, const model::State& state, Span
     camera::CalibrateOptions options;
     options.loss = answers.Flag("robust") ? camera::Loss::kCauchy : camera::Loss::kNone;
     options.noise_is_estimated = traced.noise_is_estimated;
+    if (answers.Has("skew")) {
+      options.profile = {
+          {method.range.from_rad, method.range.at(method.range.count - 1), method.range.step_rad}};
+    }
     options.trials = static_cast<int>(std::min(answers.Number("trials"), 100'000.0));
     found = camera::Calibrate(traced.photographs, evaluation.unknowns(), evaluate, options);
     if (found) {

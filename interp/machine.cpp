@@ -45,6 +45,7 @@ Machine::Machine(const Program& program, const RunOptions& options, const Host& 
       budget_(options.limits) {
   if (options.on_progress) budget_.on_progress = &options.on_progress;
   unsolved_ = program.calibrates;
+  *photographs_ = options.photographs;
   innermost_.resize(program.units.size());
   places_.resize(program.scopes.size());
 }

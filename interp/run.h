@@ -69,6 +69,7 @@ struct RunOptions {
   // Told the steps done, at every 65536th or so: what shows progress reads the clock itself. May be
   // null.
   std::function<void(std::uint64_t steps)> on_progress = {};
+  PhotographFiles photographs = {};  // known beforehand: not read through the host
 };
 
 struct Outcome {

@@ -5,6 +5,7 @@
 #include <xxhash.h>
 
 #include <bit>
+#include <charconv>
 #include <cmath>
 #include <limits>
 
@@ -45,6 +46,17 @@ std::string Hex(const Hash128& hash) {
     for (int shift = 60; shift >= 0; shift -= 4) text += kDigits[(word >> shift) & 15];
   }
   return text;
+}
+
+std::optional<Hash128> HashFromHex(std::string_view digits) {
+  if (digits.size() != 32) return std::nullopt;
+  std::uint64_t words[2] = {};
+  for (std::size_t i = 0; i < 2; ++i) {
+    const char* const begin = digits.data() + 16 * i;
+    const auto [end, error] = std::from_chars(begin, begin + 16, words[i], 16);
+    if (error != std::errc() || end != begin + 16) return std::nullopt;
+  }
+  return Hash128{words[0], words[1]};
 }
 
 Hasher& Hasher::MoreBytes(const void* data, std::size_t size) {

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <cstring>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -23,6 +24,7 @@ struct Hash128 {
 Hash128 operator+(const Hash128& a, const Hash128& b);
 Hash128 operator-(const Hash128& a, const Hash128& b);
 std::string Hex(const Hash128& hash);  // 32 lower-case digits
+std::optional<Hash128> HashFromHex(std::string_view digits);  // nothing for other text
 
 // Gathers canonical bytes. Numbers that are no finite double hash as themselves, not as a crash.
 class Hasher {

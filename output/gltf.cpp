@@ -296,6 +296,7 @@ int GlbBuilder::AddCamera(const Element& element, const model::Photograph& photo
   lens.perspective.yfov = 2 * std::atan2(size_mm.y() / 2, fy);
   lens.perspective.aspectRatio = (size_mm.x() / fx) / (size_mm.y() / fy);
   lens.perspective.znear = 0.01;
+  lens.perspective.zfar = 1e6;
   Value::Object extras;
   for (int i = 0; i < camera::kParameters; ++i) {
     extras.emplace(camera::kParameterNames[i], Value(camera.parameters[i]));

@@ -140,6 +140,37 @@ tl::expected<Journal, JournalFinding> ReadJournal(std::string_view text) {
   return journal;
 }
 
+namespace {
+
+constexpr std::string_view kPhotographType = "\"type\":\"photograph\"";
+
+// What is known of the photographs that the recorded run attached; their pixels are not needed to
+// run it again. Lines that do not say it are passed over: the replay then finds them different.
+interp::PhotographFiles PhotographsIn(std::string_view steps) {
+  interp::PhotographFiles photographs;
+  for (std::size_t at = steps.find(kPhotographType); at != std::string_view::npos;
+       at = steps.find(kPhotographType, at)) {
+    const std::size_t begin = steps.rfind('\n', at) + 1;  // npos + 1 is the text's beginning
+    const std::size_t end = std::min(steps.find('\n', at), steps.size());
+    at = end;
+    const Json step = Json::parse(steps.substr(begin, end - begin), nullptr, false);
+    if (!step.is_object() || !step.contains("edit") || !step["edit"].is_object()) continue;
+    for (const Json& element : step["edit"].value("added", Json::array())) {
+      const Json geometry = element.is_object() ? element.value("geometry", Json()) : Json();
+      const std::string *file = Text(geometry, "file"), *content = Text(geometry, "content");
+      const Json* size = Member(geometry, "size_px", Json::value_t::array);
+      if (!file || !content || !size || size->size() != 2) continue;
+      const auto hash = model::HashFromHex(*content);
+      if (!hash || !(*size)[0].is_number() || !(*size)[1].is_number()) continue;
+      photographs.emplace(
+          *file, interp::PhotographFile{*hash, {(*size)[0].get<int>(), (*size)[1].get<int>()}});
+    }
+  }
+  return photographs;
+}
+
+}  // namespace
+
 interp::ScriptResult RunJournal(const Journal& journal,
                                 std::function<void(const interp::Step&)> on_step,
                                 std::function<void(std::string_view)> print) {
@@ -155,7 +186,8 @@ interp::ScriptResult RunJournal(const Journal& journal,
   const RunSettings& settings = journal.settings;
   return interp::RunScript(journal.sources[0].first, journal.sources[0].second,
                            {settings.hypothesis, settings.parameters, settings.limits.depth},
-                           {settings.limits, std::move(on_step)}, host);
+                           {settings.limits, std::move(on_step), {}, PhotographsIn(journal.steps)},
+                           host);
 }
 
 }  // namespace tranos::session

@@ -57,8 +57,12 @@ CommandResult RecoverCamera(const State& state, const Answers& answers) {
 constexpr Key kCalibrateKeys[] = {
     {"method", Type::kWord, "how: all at once by likelihood, or a method to compare with",
      "likelihood|sweep|paper|dlt|orthocentre", "likelihood"},
-    {"skew", Type::kRange, "of sweep and paper: the skew angles tried", {}, "88deg..92deg"},
-    {"step", Type::kAngle, "of sweep and paper: from one skew angle to the next", {}, "0.01deg"},
+    {"skew",
+     Type::kRange,
+     "the skew angles that sweep and paper try; with likelihood, those of which χ² is told",
+     {},
+     "88deg..92deg"},
+    {"step", Type::kAngle, "from one of these to the next", {}, "0.01deg"},
     {"robust", Type::kBoolean, "trust traces less that lie far off", {}, "false"},
     {"trials", Type::kCount, "also resample the dots so many times (the paper's Step I)", {}, "0"}};
 constexpr Key kRecoverKeys[] = {

@@ -40,6 +40,9 @@ MODELS = {
     "poles": "place arc xy=0,0,0 xy=5,0,5 xy=10,0,0 as p\n"
                     "construct surface revolution of=p from=[0,0,0] to=[1,0,0]",
     "levels off": 'lv=2; place point xy=0,0\nlevel off 2\nlv=1; place point xy=1,1',
+    "cameras": "place camera f=33.33mm format=40.5mm,26.7mm size=484,319 aspect=1.03 skew=89.07deg omega=15.96deg "
+               "phi=35.28deg kappa=1.52deg xy=14.79m,-27.73m,-1.78m as paper\nset camera paper\n"
+               "trace edge x dot=10,10 dot=200,15",
     "deleted": "place point xy=0,0 as a\nplace point xy=1,1\ndelete of=a",
     "exports": 'place point xy=0,0\nexport "before.glb"\nplace circle center radius=2 xy=0,0\nexport "more/after.glb"',
 }

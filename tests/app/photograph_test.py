@@ -1,0 +1,97 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A photograph from text to camera: the report, the model's file, the journal, the comparison."""
+
+import json
+import shutil
+import struct
+
+import harness
+
+GOLDENS = harness.ROOT / "tests/language/photograph"
+SCRIPT = (GOLDENS / "an_unknown_is_found_with_the_camera.trn").read_text(encoding="utf-8")
+NAMES = ["f_mm", "aspect", "principal_mm", "skew_deg", "omega_deg", "phi_deg", "kappa_deg"]
+
+
+class Photograph(harness.ProgramTest):
+    def setUp(self):
+        super().setUp()
+        shutil.copy(GOLDENS / "facade.png", self.folder)
+
+    def camera(self, text=SCRIPT):
+        return self.report_of(text)["cameras"][0]
+
+    def test_report(self):
+        camera = self.camera()
+        self.assertEqual(camera["name"], "hall")
+        for name, value in zip(NAMES, [35, 1, [0, 0], 89, 12, 25, 0.5]):
+            pairs = zip(camera[name], value) if isinstance(value, list) else [(camera[name], value)]
+            for found, expected in pairs:
+                self.assertAlmostEqual(found, expected, places=3)
+        for found, expected in zip(camera["position_m"], [22, -24, 2]):
+            self.assertAlmostEqual(found, expected, places=3)
+        self.assertEqual(set(camera["sigma"]), set(NAMES) | {"x_m", "y_m", "z_m"})
+        self.assertTrue(all(camera["determined"][name] for name in ["f_mm", "skew_deg", "x_m"]))
+        rows = camera["covariance"]
+        self.assertEqual([len(row) for row in rows], [11] * 11)
+        self.assertAlmostEqual(rows[0][0] ** 0.5, camera["sigma"]["f_mm"], places=12)
+        self.assertAlmostEqual(rows[4][4] ** 0.5, camera["sigma"]["skew_deg"], places=12)
+        self.assertAlmostEqual(camera["unknowns"]["height"]["value"], 7.5, places=3)
+        self.assertGreater(camera["unknowns"]["height"]["sigma"], 0)
+
+    def test_what_is_not_determined_gets_no_number(self):
+        text = (GOLDENS / "a_facade_alone_leaves_the_camera_open.trn").read_text(encoding="utf-8")
+        camera = self.camera(text)
+        self.assertIsNone(camera["skew_deg"])
+        self.assertIsNone(camera["sigma"]["skew_deg"])
+        self.assertFalse(camera["determined"]["skew_deg"])
+        self.assertTrue(camera["undetermined"])
+        self.assertEqual(len(camera["facade_homography"]), 3)
+
+    def test_camera_in_the_model(self):
+        self.run_script(SCRIPT)
+        data = (self.folder / "out/script.glb").read_bytes()
+        length = struct.unpack("<I", data[12:16])[0]
+        model = json.loads(data[20:20 + length])
+        (camera,) = model["cameras"]
+        self.assertAlmostEqual(camera["extras"]["f"], 35, places=3)
+        self.assertAlmostEqual(camera["extras"]["Y0"], -24, places=3)
+        (node,) = [node for node in model["nodes"] if "camera" in node]
+        for found, expected in zip(node["translation"], [22, -24, 2]):
+            self.assertAlmostEqual(found, expected, places=3)
+        # The exact matrix puts the hall's near corner where it was traced.
+        matrix = camera["extras"]["dot_from_world"]
+        u, v, w = (sum(a * b for a, b in zip(matrix[4 * row:4 * row + 4], [10, 0, 0, 1])) for row in range(3))
+        self.assertAlmostEqual(u / w, 759.305603241, delta=0.01)
+        self.assertAlmostEqual(v / w, 986.421140680, delta=0.01)
+        self.assertFalse([node for node in model["nodes"] if "trace" in node.get("name", "")])
+
+    def test_journal_needs_no_picture(self):
+        ran = self.run_script(SCRIPT, "--no-output", "--journal", "journal.jsonl")
+        self.assertEqual(ran.status, 0, ran.err)
+        (self.folder / "facade.png").unlink()
+        replayed = self.tranos("replay", "journal.jsonl")
+        self.assertEqual(replayed.status, 0, replayed.err)
+        steps = [json.loads(line) for line in (self.folder / "journal.jsonl").read_text().splitlines()]
+        edits = [step["edit"] for step in steps if "edit" in step]
+        calibrated = [edit for edit in edits if any("camera" in element["geometry"] for element in edit.get("replaced", []))]
+        # The camera, the trace that stands on the unknown and what was built with it, in one edit.
+        self.assertEqual(sorted(element["type"] for element in calibrated[0]["replaced"]),
+                         ["line", "photograph", "trace edge"])
+
+    def test_comparison_tells_the_camera_in_its_deviations(self):
+        self.write("a.trn", SCRIPT)
+        self.write("b.trn", SCRIPT.replace("dot=759.305603241,986.421140680", "dot=761.305603241,986.421140680"))
+        compared = self.tranos("diff", "a.trn", "b.trn")
+        self.assertRegex(compared.out, r"photograph `hall`: .*focal length .* mm, [0-9.]+ of its deviations\)")
+
+    def test_runs_the_same_from_another_folder(self):
+        first = self.report_of(SCRIPT, "--no-output")
+        self.write("deep/er/script.trn", SCRIPT)
+        shutil.copy(GOLDENS / "facade.png", self.folder / "deep/er")
+        second = self.tranos("run", "deep/er/script.trn", "--json", "--no-output", "--threads", "8").report
+        self.assertEqual(first["model_hash"], second["model_hash"])
+        self.assertEqual(first["cameras"], second["cameras"])
+
+
+if __name__ == "__main__":
+    harness.main()
