@@ -427,7 +427,7 @@ void AddMetric(Report& report) {
       const ParameterVector moved = InTableUnits(fit.camera.parameters - cuboid.truth.parameters);
       TableRow row{name, fmt::format("{}", "XYZ"[axis])};
       for (const Parameter p : {kFocal, camera::kAspect, kSkew, kPhi, kX0, camera::kY0})
-        row.push_back(fmt::format("{:+.4f}", moved[p]));
+        row.push_back(std::abs(moved[p]) < 5e-5 ? "0" : fmt::format("{:+.4f}", moved[p]));
       // Zero but for rounding, which differs between machines.
       row.push_back(fit.chi2 < 1e-12 ? "0" : fmt::format("{:.2g}", fit.chi2));
       rows.push_back(row);
