@@ -47,9 +47,10 @@ double StepOf(double value) { return 1e-6 * std::max(1.0, std::abs(value)); }
 class Machine::TrialRun {
  public:
   TrialRun(const Machine& main, const Host& silent, const Trial& trial)
-      : options_{main.budget_.limits, {}, {}, {}}, machine_(main.program_, options_, silent) {
-    options_.limits.steps = main.budget_.steps_left;
-    machine_.budget_ = Budget(options_.limits);
+      : options_{main.budget_.limits, {}, {}, {}},
+        machine_(main.program_, options_, silent),
+        steps_before_(main.budget_.steps_left) {
+    machine_.budget_.steps_left = main.budget_.steps_left;  // what is left of the whole run
     machine_.trial_ = &trial;
     machine_.photographs_ = main.photographs_;
     if (trial.factor) {
@@ -70,6 +71,7 @@ class Machine::TrialRun {
     }
     state_ = stage.state();
   }
+  std::uint64_t steps() const { return steps_before_ - machine_.budget_.steps_left; }
 
   const model::State& state() const { return state_; }
   Machine& machine() { return machine_; }
@@ -78,6 +80,7 @@ class Machine::TrialRun {
  private:
   RunOptions options_;
   Machine machine_;
+  std::uint64_t steps_before_;
   Registers registers_;
   model::State state_;
 };
@@ -85,8 +88,8 @@ class Machine::TrialRun {
 // Gives the numbers that traces stand on for any values of the unknowns.
 class Machine::Evaluation {
  public:
-  Evaluation(const Machine& main, const Host& silent, const Traced& start)
-      : main_(main), silent_(silent), start_(start) {
+  Evaluation(Machine& main, const Host& silent, const Traced& start, Span span)
+      : main_(main), silent_(silent), start_(start), span_(span) {
     FindSources();
   }
 
@@ -99,6 +102,7 @@ class Machine::Evaluation {
       return Evaluated(unknowns);
     } catch (const RunFailure& failure) {
       failure_ = failure;
+      if (failure.diagnostic.code == Code::kStepLimit) failure_->diagnostic.span = span_;
       return tl::unexpected(geom::Error{geom::ErrorCode::kOutOfRange, failure.diagnostic.message});
     }
   }
@@ -133,6 +137,7 @@ class Machine::Evaluation {
     const Trial trial = TrialOf(unknowns);
     TrialRun run(main_, silent_, trial);
     run.Run();
+    main_.budget_.ChargeSteps(run.steps(), span_);
     return TracedIn(run.state());
   }
 
@@ -180,9 +185,10 @@ class Machine::Evaluation {
     }
   }
 
-  const Machine& main_;
+  Machine& main_;
   const Host& silent_;
   const Traced& start_;
+  const Span span_;                   // of `calibrate`
   std::vector<std::size_t> sources_;  // of each unknown of the adjustment
   std::map<std::size_t, Eigen::Index> column_;
   std::vector<camera::Unknown> unknowns_;
@@ -261,7 +267,7 @@ Fired Machine::Calibrate(const Answers& answers, const model::State& state, Span
          "attach photo \"fire_1917.png\" format=40.5mm,26.7mm as fire");
   }
   const Host silent{host_.read, nullptr};
-  Evaluation evaluation(*this, silent, traced);
+  Evaluation evaluation(*this, silent, traced, span);
   const Method method{answers.Text("method", "likelihood"), RangeOf(answers, span)};
   Eigen::VectorXd start(static_cast<Eigen::Index>(evaluation.unknowns().size()));
   for (Eigen::Index k = 0; k < start.size(); ++k) {
@@ -424,7 +430,7 @@ model::Edit Machine::Adopt(TrialRun& solved, const model::State& before) {
   edit.last_point = after.drawing.last_point;
   std::copy(solved.registers().begin(), solved.registers().end(), innermost_[0].registers);
   Machine& machine = solved.machine();
-  budget_.steps_left = std::min(budget_.steps_left, machine.budget_.steps_left);
+  budget_.steps_left -= solved.steps();
   held_ = std::move(machine.held_);
   sources_ = std::move(machine.sources_);
   prototypes_ = std::move(machine.prototypes_);
