@@ -22,7 +22,10 @@ ScriptResult RunBounded(std::string text) {
   // One file can be used: an empty one, whatever it is called.
   const Host host{
       [](std::string_view) -> tl::expected<std::string, HostError> { return std::string(); }, {}};
-  return RunScript("fuzz.trn", std::move(text), {{}, {}, limits.depth}, {limits, {}}, host);
+  // And one photograph is known, so that what is traced on it can be calibrated.
+  const PhotographFiles photographs{{"facade.png", {{}, {1600, 1067}}}};
+  return RunScript("fuzz.trn", std::move(text), {{}, {}, limits.depth},
+                   {limits, {}, {}, photographs}, host);
 }
 
 }  // namespace
