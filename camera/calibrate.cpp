@@ -159,6 +159,26 @@ Photograph Anchored(Photograph photograph, const Camera& start) {
   return photograph;
 }
 
+// The least χ² itself, where the data are weak but leave no direction free and it is as plausible
+// as the place in the valley that it is reached from.
+std::optional<Refined> LeastNearby(const Task& task, const Refined& near, const Camera& start) {
+  const auto at = Linearise(task.photographs, task.unknowns, task.layout, near.numbers, near.state,
+                            task.refine.noise_scale);
+  if (!at) return {};
+  const Determined determined =
+      DeterminedOf(task.photographs, task.unknowns, task.layout, near, *at);
+  if (determined.determination.rank < task.layout.columns) return {};
+  auto least = RefineAgain(task, near);
+  if (!least || !SeesAll(task, *least)) return {};
+  const Photograph plausible = Anchored(task.photographs[0], start);
+  for (int i = 0; i < kIntrinsics; ++i) {
+    const bool is_stated = task.photographs[0].priors[i].sigma > 0;
+    if (!is_stated && !(std::abs(least->state[i] - near.state[i]) < plausible.priors[i].sigma))
+      return {};
+  }
+  return std::move(*least);
+}
+
 // Where the data leave a camera open, the valley of least χ² leads to where pictures vanish, and
 // what is open there is not what is open of a camera. So the verdict is given at a plausible
 // camera of the valley; that much is assumed to find it, and nothing of what is told rests on it.
@@ -187,8 +207,9 @@ std::optional<Refined> InValley(const Task& task, const Numbers& numbers, const 
     if (!refined) return {};
     near = std::move(*refined);
   }
-  Unwind(near.state, 1);
   if (HasView(task, near)) return {};
+  if (auto least = LeastNearby(task, near, starts[0])) near = std::move(*least);
+  Unwind(near.state, 1);
   return near;
 }
 
@@ -268,7 +289,7 @@ DotNoise DotNoiseOf(const Task& task, const Refined& refined) {
   double taken = determined.determination.rank;
   const int priors = task.layout.rows() - task.layout.trace_rows;
   const auto rows = at->jacobian.bottomRows(priors);
-  taken -= (rows * determined.determination.covariance * rows.transpose()).trace();
+  taken -= (rows * determined.determination.inverse_information * rows.transpose()).trace();
   const double chi2 = at->residuals.head(task.layout.trace_rows).squaredNorm();
   const double dof = task.layout.trace_rows - taken;
   return {dof > 0.5 ? chi2 / dof : 1, dof};

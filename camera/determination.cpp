@@ -134,6 +134,42 @@ std::vector<std::string> SentencesOf(const Eigen::MatrixXd& open,
   return sentences;
 }
 
+// The measured unknowns whose own deviations give nearly all that is known in the open directions;
+// none where one is free, or where traces have a part in it. In scaled units the row of a measured
+// unknown is a unit vector, so that its part of a direction's information is a square of it.
+std::vector<std::string> HoldersOf(const Spectrum& s, const Judgement& judgement,
+                                   const std::vector<Quantity>& quantities) {
+  constexpr double kNearlyAll = 0.9, kSome = 0.1;
+  const Eigen::Index n = s.values.size(), first = n - judgement.open.cols();
+  if (s.rank < n) return {};
+  std::vector<std::string> holders;
+  for (Eigen::Index k = first; k < n; ++k) {
+    double held = 0;
+    for (Eigen::Index i = 0; i < n; ++i) {
+      if (!quantities[i].is_measured) continue;
+      const double share = std::pow(s.directions(i, k) / s.values[k], 2);
+      held += share;
+      if (share > kSome && std::ranges::find(holders, quantities[i].term) == holders.end())
+        holders.push_back(quantities[i].term);
+    }
+    if (held < kNearlyAll) return {};
+  }
+  return holders;
+}
+
+std::string HeldSentence(const Judgement& by_data, const std::vector<std::string>& holders,
+                         const std::vector<Quantity>& quantities) {
+  std::vector<std::string> terms;
+  for (std::size_t i = 0; i < quantities.size(); ++i) {
+    if (by_data.determined[i] || quantities[i].kind == Kind::kNuisance) continue;
+    if (std::ranges::find(terms, quantities[i].term) == terms.end())
+      terms.push_back(quantities[i].term);
+  }
+  return "only the stated deviation of " + Listed(holders) + " holds " + Listed(terms) +
+         ", too loosely to tell: a smaller one, a second independent ratio, a third dimension or a "
+         "prior on the principal point closes it";
+}
+
 }  // namespace
 
 std::vector<Quantity> QuantitiesOf(const Camera& camera, const Frame& frame, double distance_m) {
@@ -166,7 +202,8 @@ Determination Determine(const Eigen::MatrixXd& jacobian, int data_rows,
   result.with_priors = with_priors.determined;
   result.free_directions = static_cast<int>(n) - data.rank;
   result.rank = static_cast<int>(has_priors ? with_priors.rank : data.rank);
-  result.covariance = scale.asDiagonal() * with_priors.covariance * scale.asDiagonal();
+  result.inverse_information = scale.asDiagonal() * with_priors.covariance * scale.asDiagonal();
+  result.covariance = result.inverse_information;
   for (Eigen::Index i = 0; i < n; ++i) {
     if (result.with_priors[i]) continue;
     result.covariance.row(i).setZero();
@@ -176,7 +213,13 @@ Determination Determine(const Eigen::MatrixXd& jacobian, int data_rows,
   for (Eigen::Index i = 0; i < n; ++i) {
     is_open = is_open || (!by_data.determined[i] && quantities[i].kind != Kind::kNuisance);
   }
-  if (is_open) result.undetermined = SentencesOf(by_data.open, quantities);
+  if (!is_open) return result;
+  const std::vector<std::string> holders = HoldersOf(data, by_data, quantities);
+  if (holders.empty()) {
+    result.undetermined = SentencesOf(by_data.open, quantities);
+  } else {
+    result.undetermined.push_back(HeldSentence(by_data, holders, quantities));
+  }
   return result;
 }
 

@@ -22,7 +22,8 @@ struct Quantity {
   };
   Kind kind = Kind::kNuisance;
   double scale = 1;
-  std::string term;  // in words; several may share one ("principal point")
+  std::string term;          // in words; several may share one ("principal point")
+  bool is_measured = false;  // an unknown whose own deviation, its `scale`, is among the data
 };
 
 // Limits: 2° for angles, 20 % of f, 0.2 of the aspect, 20 % of the frame's width for the principal
@@ -36,6 +37,9 @@ struct Determination {
   int rank = 0;                   // with priors
   // Of all columns, with priors; those of columns that are still free are zero.
   Eigen::MatrixXd covariance;
+  // The pseudo-inverse of the information Jᵀ J, of all columns: nothing is left out, so that what
+  // is weak still takes its part in how the others hang on the data (shares, redundancies).
+  Eigen::MatrixXd inverse_information;
   // A sentence for each group of quantities that the data leave open, what determined them told.
   std::vector<std::string> undetermined;
 };

@@ -52,7 +52,8 @@ std::vector<Quantity> QuantitiesOfAll(std::span<const Photograph> photographs,
     const double value = std::abs(refined.state[layout.unknown_column() + i]);
     const double scale = unknowns[i].sigma > 0 ? unknowns[i].sigma : std::max(value, 1e-3);
     quantities.push_back({Quantity::Kind::kUnknown, scale,
-                          unknowns[i].name.empty() ? "a dimension" : "`" + unknowns[i].name + "`"});
+                          unknowns[i].name.empty() ? "a dimension" : "`" + unknowns[i].name + "`",
+                          unknowns[i].sigma > 0});
   }
   quantities.resize(static_cast<std::size_t>(layout.columns));
   return quantities;
@@ -60,7 +61,7 @@ std::vector<Quantity> QuantitiesOfAll(std::span<const Photograph> photographs,
 
 // C Jᵀ J C over the rows of each source adds up to C: how much variance came from where.
 std::vector<Shares> SharesOf(const Layout& layout, const Determined& determined) {
-  const Eigen::MatrixXd& covariance = determined.determination.covariance;
+  const Eigen::MatrixXd& covariance = determined.determination.inverse_information;
   const Eigen::MatrixXd moved = covariance * determined.jacobian.transpose();
   std::vector<Shares> shares(static_cast<std::size_t>(layout.columns));
   for (int i = 0; i < layout.columns; ++i) {

@@ -145,6 +145,67 @@ bool Mentions(const std::vector<std::string>& sentences, const char* words) {
       sentences, [&](const std::string& s) { return s.find(words) != std::string::npos; });
 }
 
+// Seven edges of a box of 10 m by 6 m whose depth is unknown: one parameter of the camera and the
+// depth trade off, and nothing but the depth's own deviation holds them.
+geom::Result<std::vector<Estimate>> BoxOfUnknownDepth(const Unknown& depth) {
+  Scene scene;
+  scene.photograph.frame = {{36, 24.0075}, {1600, 1067}};
+  scene.truth.parameters << 35, 1, 0, 0, 89 * kPi / 180, 12 * kPi / 180, 25 * kPi / 180,
+      0.5 * kPi / 180, 22, -24, 2;
+  constexpr double kDepth_m = 14;
+  const Vec3 corners[] = {{0, 0, 0},  {10, 0, 0},        {0, 0, 6},
+                          {10, 0, 6}, {10, kDepth_m, 0}, {10, kDepth_m, 6}};
+  for (const auto& [from, to] : {std::pair(0, 1), {2, 3}, {0, 2}, {1, 3}, {1, 4}, {3, 5}, {4, 5}}) {
+    scene.Edge(corners[from], corners[to]);
+  }
+  return Calibrate(std::vector{scene.photograph}, std::vector{depth},
+                   [&](const Eigen::VectorXd& u) -> geom::Result<Numbers> {
+                     Numbers numbers = scene.list.numbers(1);
+                     for (Eigen::Index i = 1; i < numbers.values.size(); i += 3) {
+                       if (numbers.values[i] != kDepth_m) continue;
+                       numbers.values[i] = u[0];
+                       numbers.by_unknown(i, 0) = 1;
+                     }
+                     return numbers;
+                   });
+}
+
+TEST(Calibrate, WhatOnlyAnUnknownsDeviationHoldsIsOwedToIt) {
+  for (const double sigma : {0.28, 1.3}) {
+    SCOPED_TRACE(sigma);
+    const auto estimates = BoxOfUnknownDepth({"depth", 13, sigma});
+    ASSERT_TRUE(estimates.has_value()) << estimates.error().detail;
+    const Estimate& estimate = estimates->front();
+    // Any depth explains exact dots, so that its own mean costs nothing.
+    EXPECT_NEAR(estimate.unknowns[0].value, 13, 1e-6);
+    EXPECT_LT(estimate.chi2, 1e-12);
+    EXPECT_NEAR(estimate.unknowns[0].sigma, sigma, 1e-4 * sigma);
+    // Nothing else tells of the depth, so that what is owed to it is what goes along with it.
+    const Eigen::MatrixXd& covariance = estimate.covariance;
+    const double depth_variance = covariance(kParameters, kParameters);
+    for (int i = 0; i < kParameters; ++i) {
+      const ParameterEstimate& parameter = estimate.parameters[i];
+      if (parameter.free()) continue;
+      const double along = covariance(i, kParameters);
+      EXPECT_NEAR(parameter.shares.metric, along * along / depth_variance / covariance(i, i), 1e-4)
+          << kParameterNames[i];
+    }
+    EXPECT_GT(estimate.parameters[kFocal].shares.metric, 0.6);
+  }
+}
+
+TEST(Calibrate, ALooseDeviationIsNamedAsWhatLeavesAnAngleOpen) {
+  const auto loose = BoxOfUnknownDepth({"depth", 13, 1.3});
+  ASSERT_TRUE(loose.has_value()) << loose.error().detail;
+  EXPECT_TRUE(loose->front().parameters[kPhi].free());
+  EXPECT_TRUE(
+      Mentions(loose->front().undetermined, "only the stated deviation of `depth` holds pan"));
+  const auto close = BoxOfUnknownDepth({"depth", 13, 0.28});
+  ASSERT_TRUE(close.has_value()) << close.error().detail;
+  EXPECT_TRUE(close->front().determined());
+  EXPECT_TRUE(close->front().undetermined.empty());
+}
+
 TEST(Calibrate, OneFacadeNeverShowsTheSkew) {
   int refused = 0;
   for (int seed = 1; seed <= kSeeds; ++seed) {
