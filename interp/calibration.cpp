@@ -196,6 +196,14 @@ class Machine::Evaluation {
   std::optional<RunFailure> failure_;
 };
 
+struct Machine::Solution {
+  const Evaluation& evaluation;
+  const Traced& traced;
+  const Host& silent;
+  Eigen::VectorXd unknowns;
+  std::vector<camera::Estimate> estimates;
+};
+
 namespace {
 
 struct Method {
@@ -298,7 +306,7 @@ Fired Machine::Calibrate(const Answers& answers, const model::State& state, Span
   }
   if (evaluation.failure()) throw *evaluation.failure();
   if (!found) FailCalibration(found.error(), traced, span);
-  return Calibrated(*found, evaluation, traced, solved, silent, state, span);
+  return Calibrated({evaluation, traced, silent, solved, *std::move(found)}, state, span);
 }
 
 // The error with the trace at fault.
@@ -326,9 +334,8 @@ void Machine::FailCalibration(const geom::Error& error, const Traced& traced, Sp
 }
 
 // The state as the solution makes it: what depends on unknowns, and the photographs' cameras.
-Fired Machine::Calibrated(std::vector<camera::Estimate> found, const Evaluation& evaluation,
-                          const Traced& traced, const Eigen::VectorXd& solved, const Host& silent,
-                          const model::State& before, Span span) {
+Fired Machine::Calibrated(Solution solution, const model::State& before, Span span) {
+  auto& [evaluation, traced, silent, solved, found] = solution;
   // The first photograph's covariance is of its camera and the unknowns together; those of the
   // others are their own.
   Eigen::MatrixXd factor(0, 0);

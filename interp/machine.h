@@ -81,6 +81,7 @@ class Machine {
   struct Trial;
   class TrialRun;
   class Evaluation;
+  struct Solution;
   // Something that the adjustment may solve for: an unknown, or the error of a `+-` literal.
   struct Solvable {
     camera::Unknown unknown;
@@ -89,9 +90,7 @@ class Machine {
   Fired Calibrate(const Answers& answers, const model::State& state, Span span);
   [[noreturn]] void FailCalibration(const geom::Error& error, const Traced& traced,
                                     Span span) const;
-  Fired Calibrated(std::vector<camera::Estimate> found, const Evaluation& evaluation,
-                   const Traced& traced, const Eigen::VectorXd& solved, const Host& silent,
-                   const model::State& before, Span span);
+  Fired Calibrated(Solution solution, const model::State& before, Span span);
   void Warn(const camera::Estimate& estimate, const model::Element& photograph,
             const std::vector<model::ElementId>& trace_ids, Span span);
   model::Edit Adopt(TrialRun& solved, const model::State& before);

@@ -165,9 +165,9 @@ class Value {
     bool from_unknown;
   };
   union {
-    double number_ = 0;
-    Truth truth_;
-    Heap* heap_;
+    double number_ = 0;  // NOLINT(readability-identifier-naming)
+    Truth truth_;        // NOLINT(readability-identifier-naming)
+    Heap* heap_;         // NOLINT(readability-identifier-naming)
   };
 };
 static_assert(sizeof(Value) == 16);

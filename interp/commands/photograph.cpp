@@ -22,7 +22,7 @@ using model::Value;
 namespace {
 
 constexpr double kDegree = kPi / 180;
-constexpr double kLongerSideUnlessStated_mm = 36;
+constexpr double kLongerSide = 36;  // mm, unless the format is stated
 
 Where AtKey(std::string_view key) { return {Where::kKey, 0, key}; }
 
@@ -93,7 +93,7 @@ CommandResult AttachPhoto(const State& state, const Answers& answers,
   } else {
     photograph.format_is_stated = false;
     photograph.frame.size_mm = photograph.frame.size_px.cast<double>() *
-                               (kLongerSideUnlessStated_mm / photograph.frame.size_px.maxCoeff());
+                               (kLongerSide / photograph.frame.size_px.maxCoeff());
   }
   return Attach(std::move(photograph), state);
 }

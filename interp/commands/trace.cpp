@@ -252,42 +252,68 @@ constexpr Example kCircleExamples[] = {
     {TRANOS_PHOTO "trace circle dot=100,50 dot=150,100", "E0402"}};
 #undef TRANOS_PHOTO
 
-constexpr Command Row(std::string_view words, std::string_view summary, int least, int most,
-                      std::span<const Key> keys, std::string_view options,
-                      std::span<const Example> examples,
-                      CommandResult (*execute)(const State&, const Answers&)) {
-  return {.words = words,
-          .family = "photograph",
-          .summary = summary,
-          .manner = Manner::kGathers,
-          .prompts = kDots,
-          .least = least,
-          .most = most,
-          .keys = keys,
-          .options = options,
-          .examples = examples,
-          .execute = execute,
-          .dots = true};
+// What all traces have in common: they gather dots, and become one element when they end.
+constexpr Command Tracing(Command row) {
+  row.manner = Manner::kGathers;
+  row.prompts = kDots;
+  row.dots = true;
+  return row;
 }
 
+constexpr int kMostDots = 100'000;
 constexpr Command kCommands[] = {
-    Row("trace edge",
-        "The image line of an edge: along an axis, at a known place, or of an element. Two dots, "
-        "or "
-        "more along it.",
-        2, 100'000, kEdgeKeys, "x|y|z", kEdgeExamples, TraceEdge),
-    Row("trace point", "The image of a point whose place is known.", 1, 1, kPointKeys, {},
-        kPointExamples, TracePoint),
-    Row("trace rectangle",
-        "The image of an upright rectangle on a facade: four dots, anticlockwise from bottom left.",
-        4, 4, kRectangleKeys, {}, kRectangleExamples, TraceRectangle),
-    Row("trace equal", "The image of two orthogonal edges of equal length on a facade.", 4, 4,
-        kEqualKeys, {}, kEqualExamples, TraceRatio),
-    Row("trace ratio",
-        "The image of two orthogonal edges on a facade whose lengths have a known ratio.", 4, 4,
-        kRatioKeys, {}, kRatioExamples, TraceRatio),
-    Row("trace circle", "The image of a circle on a facade: five dots or more.", 5, 100'000,
-        kEqualKeys, {}, kCircleExamples, TraceCircle),
+    Tracing({.words = "trace edge",
+             .family = "photograph",
+             .summary = "The image line of an edge: along an axis, at a known place, or of an "
+                        "element. Two dots, or more along it.",
+             .least = 2,
+             .most = kMostDots,
+             .keys = kEdgeKeys,
+             .options = "x|y|z",
+             .examples = kEdgeExamples,
+             .execute = TraceEdge}),
+    Tracing({.words = "trace point",
+             .family = "photograph",
+             .summary = "The image of a point whose place is known.",
+             .least = 1,
+             .most = 1,
+             .keys = kPointKeys,
+             .examples = kPointExamples,
+             .execute = TracePoint}),
+    Tracing({.words = "trace rectangle",
+             .family = "photograph",
+             .summary = "The image of an upright rectangle on a facade: four dots, anticlockwise "
+                        "from bottom left.",
+             .least = 4,
+             .most = 4,
+             .keys = kRectangleKeys,
+             .examples = kRectangleExamples,
+             .execute = TraceRectangle}),
+    Tracing({.words = "trace equal",
+             .family = "photograph",
+             .summary = "The image of two orthogonal edges of equal length on a facade.",
+             .least = 4,
+             .most = 4,
+             .keys = kEqualKeys,
+             .examples = kEqualExamples,
+             .execute = TraceRatio}),
+    Tracing({.words = "trace ratio",
+             .family = "photograph",
+             .summary = "The image of two orthogonal edges on a facade whose lengths have a known "
+                        "ratio.",
+             .least = 4,
+             .most = 4,
+             .keys = kRatioKeys,
+             .examples = kRatioExamples,
+             .execute = TraceRatio}),
+    Tracing({.words = "trace circle",
+             .family = "photograph",
+             .summary = "The image of a circle on a facade: five dots or more.",
+             .least = 5,
+             .most = kMostDots,
+             .keys = kEqualKeys,
+             .examples = kCircleExamples,
+             .execute = TraceCircle}),
 };
 
 }  // namespace
