@@ -47,6 +47,30 @@ struct Evidence {
   Assumed assumed;
 };
 
+// Some of very many, a Fibonacci-like walk through them: no pattern in how they are listed, such as
+// every fourth one upright, leaves a kind of them out.
+template <class T>
+std::vector<T> SomeOf(const std::vector<T>& all, size_t most) {
+  if (all.size() <= most) return all;
+  constexpr double kGolden = 0.6180339887498949;
+  const double share = static_cast<double>(most) / static_cast<double>(all.size());
+  std::vector<T> some;
+  for (size_t i = 0; i < all.size(); ++i) {
+    const double at = static_cast<double>(i) * kGolden;
+    if (at - std::floor(at) < share) some.push_back(all[i]);
+  }
+  return some;
+}
+
+// Enough to search widely by; what is found is judged by everything.
+Evidence Thinned(const Evidence& evidence) {
+  Evidence some = evidence;
+  some.traces.edges = SomeOf(evidence.traces.edges, 40);
+  some.traces.points = SomeOf(evidence.traces.points, 40);
+  for (auto& lines : some.lines) lines = SomeOf(lines, 20);
+  return some;
+}
+
 struct Candidate {
   ConditionedCamera camera;
   double score;
@@ -138,8 +162,7 @@ void AddConics(Candidates* candidates) {
 
 // For focal lengths from a quarter of the picture's width on, the facade's poses and those of the
 // vanishing points; the best few with the focal length adjusted.
-void AddFocalLengths(Candidates* candidates) {
-  const Evidence& evidence = candidates->evidence;
+void AddFocalLengths(const Evidence& evidence, Candidates* candidates) {
   Candidates tried{evidence, {}};
   std::optional<Mat3> h;
   std::vector<Vec2> points, dots;
@@ -179,8 +202,7 @@ void AddFocalLengths(Candidates* candidates) {
 
 // Upright cameras that look in all directions, the position from the traces, the pose and the focal
 // length adjusted.
-void AddAllDirections(Candidates* candidates) {
-  const Evidence& evidence = candidates->evidence;
+void AddAllDirections(const Evidence& evidence, Candidates* candidates) {
   if (evidence.traces.empty()) return;
   for (const bool focal : {false, true}) {
     Candidates tried{evidence, {}};
@@ -220,15 +242,16 @@ std::vector<Camera> Starts(const Photograph& photograph, const Numbers& numbers)
                           AxisLinesOf(photograph, numbers),
                           ConicRowsOf(photograph, numbers),
                           AssumedOf(photograph)};
+  const Evidence search = Thinned(evidence);
   Candidates candidates{evidence, {}};
   AddProjection(&candidates);
   if (!candidates.Good()) {
     AddConics(&candidates);
-    AddFocalLengths(&candidates);
+    AddFocalLengths(search, &candidates);
     candidates.Sort();
   }
   if (!evidence.traces.empty() && !candidates.Good()) {
-    AddAllDirections(&candidates);
+    AddAllDirections(search, &candidates);
     candidates.Sort();
   }
   if (candidates.found.empty()) {
