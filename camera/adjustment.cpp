@@ -374,13 +374,15 @@ geom::Result<Linearised> Linearise(std::span<const Photograph> photographs,
     }
   }
   if (to.residuals.allFinite() && to.jacobian.allFinite()) return to;
-  for (const TraceRows& rows : layout.traces) {
+  for (std::size_t i = 0; i < layout.traces.size(); ++i) {
+    const TraceRows& rows = layout.traces[i];
     if (to.residuals.segment(rows.first_row, rows.rows).allFinite() &&
         to.jacobian.middleRows(rows.first_row, rows.rows).allFinite()) {
       continue;
     }
     return tl::unexpected(geom::Error{geom::ErrorCode::kDegenerate,
-                                      "the camera has no image of what is traced", rows.trace});
+                                      "the camera has no image of what is traced",
+                                      static_cast<int>(i)});
   }
   return tl::unexpected(
       geom::Error{geom::ErrorCode::kDegenerate, "an unknown or a prior is not finite"});

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
@@ -259,12 +260,18 @@ geom::Result<Adjusted> AdjustOne(const Task& task, const Numbers& numbers,
 geom::Result<Adjusted> Adjust(const Task& task, const Numbers& numbers, const Eigen::VectorXd& u) {
   if (task.photographs.size() == 1) return AdjustOne(task, numbers, u);
   std::vector<Camera> cameras;
+  int traces_before = 0;
   for (const Photograph& photograph : task.photographs) {
     const std::span<const Photograph> one(&photograph, 1);
     const auto alone =
         AdjustOne({one, task.unknowns, task.numbers_of, LayoutOf(one, task.unknowns), task.refine},
                   numbers, u);
-    if (!alone) return tl::unexpected(alone.error());
+    if (!alone) {
+      Error error = alone.error();
+      if (error.part >= 0) error.part += traces_before;
+      return tl::unexpected(std::move(error));
+    }
+    traces_before += static_cast<int>(photograph.traces.size());
     cameras.push_back(CameraAt(alone->best.state, 0));
   }
   auto refined = RefineFrom(task, numbers, cameras, u);
@@ -315,30 +322,65 @@ geom::Result<DotNoise> EstimateNoise(Task& task, Adjusted& adjusted) {
   return noise;
 }
 
-// The trace or unknown whose residuals are largest for their number.
+// The trace or unknown without which the misfit would fall most, for the number of its residuals.
 struct Worst {
   std::string name;
   int photograph = -1;
-  int trace = -1;
+  int trace = -1;  // in the photograph
+  int part = -1;   // through all photographs' traces
+  double fall = 0;
+  std::string rival{};  // what could as well be the one, if any
 };
 
-Worst WorstOf(const Task& task, const Linearised& at) {
+// rᵀ R⁻¹ r, R the block of the redundancy matrix I − J (JᵀJ)⁻¹ Jᵀ: to first order, by how much χ²
+// falls when the rows are left out; a square of a studentised residual (Cook and Weisberg,
+// Residuals and Influence in Regression, 2.2). What nothing else checks has no part in it.
+double FallWithout(const Eigen::MatrixXd& redundancy, const Eigen::VectorXd& residuals) {
+  constexpr double kChecked = 1e-6;
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(redundancy);
+  const Eigen::VectorXd along = solver.eigenvectors().transpose() * residuals;
+  double fall = 0;
+  for (Eigen::Index i = 0; i < along.size(); ++i) {
+    const double checked = solver.eigenvalues()[i];
+    if (checked > kChecked) fall += along[i] * along[i] / checked;
+  }
+  return fall;
+}
+
+Worst WorstOf(const Task& task, const Refined& refined, const Linearised& at) {
+  const Determined determined =
+      DeterminedOf(task.photographs, task.unknowns, task.layout, refined, at);
+  const Eigen::MatrixXd& j = determined.jacobian;
+  const Eigen::MatrixXd& inverse = determined.determination.inverse_information;
+  // Of two that disagree with each other and with nothing else, the later one is named first: what
+  // was traced before it did agree.
+  constexpr double kAlike = 0.99;
   Worst worst;
-  double most = 0;
-  const auto consider = [&](double value, Worst candidate) {
-    if (value <= most) return;
-    most = value;
-    worst = std::move(candidate);
+  std::vector<Worst> all;
+  const auto consider = [&](int first_row, int rows, Worst candidate) {
+    const auto block = j.middleRows(first_row, rows);
+    const Eigen::MatrixXd redundancy =
+        Eigen::MatrixXd::Identity(rows, rows) - block * inverse * block.transpose();
+    const double fall = FallWithout(redundancy, at.residuals.segment(first_row, rows)) / rows;
+    candidate.fall = fall;
+    all.push_back(std::move(candidate));
   };
-  for (const TraceRows& rows : task.layout.traces) {
-    const double mean = at.residuals.segment(rows.first_row, rows.rows).squaredNorm() / rows.rows;
-    consider(mean, {fmt::format("trace {}", rows.trace + 1), rows.photograph, rows.trace});
+  for (std::size_t i = 0; i < task.layout.traces.size(); ++i) {
+    const TraceRows& rows = task.layout.traces[i];
+    consider(rows.first_row, rows.rows,
+             {fmt::format("trace {}", i + 1), rows.photograph, rows.trace, static_cast<int>(i)});
   }
   int row = task.layout.trace_rows;
   for (const Unknown& unknown : task.unknowns) {
     if (!(unknown.sigma > 0)) continue;
-    const double r = at.residuals[row++];
-    consider(r * r, {unknown.name.empty() ? "a dimension" : "`" + unknown.name + "`"});
+    consider(row++, 1, {unknown.name.empty() ? "a dimension" : "`" + unknown.name + "`"});
+  }
+  double most = 0;
+  for (const Worst& candidate : all) most = std::max(most, candidate.fall);
+  for (Worst& candidate : all) {
+    if (candidate.fall < kAlike * most) continue;
+    candidate.rival = worst.name;
+    worst = std::move(candidate);
   }
   return worst;
 }
@@ -348,11 +390,12 @@ std::string Disagreement(const Task& task, const Worst& worst, double chi2, int 
       worst.trace >= 0 && std::holds_alternative<DirectionTrace>(
                               task.photographs[worst.photograph].traces[worst.trace]);
   return fmt::format(
-      "{}: χ² is {:.4g} with {} degrees of freedom, and {} is farthest off",
+      "{}: χ² is {:.4g} with {} degrees of freedom, and {} is farthest off{}",
       is_direction ? "the edges' directions are not parallel or orthogonal as they are said to be, "
                      "or the noise is larger than stated"
                    : "dimensions and traces disagree, or the noise is larger than stated",
-      chi2, dof, worst.name);
+      chi2, dof, worst.name,
+      worst.rival.empty() ? "" : fmt::format("; without {} the rest agrees as well", worst.rival));
 }
 
 void Scatter(ImageLine& line, NormalNumbers& noise) {
@@ -507,10 +550,10 @@ geom::Result<std::vector<Estimate>> Calibrated(std::span<const Photograph> photo
   const int dof = first.dof;
   const double chi2 = at->residuals.squaredNorm();
   if (dof > 0 && ChiSquaredTail(chi2, dof) < 1e-6 && !noise_is_estimated) {
-    const Worst worst = WorstOf(task, *at);
+    const Worst worst = WorstOf(task, adjusted->best, *at);
     const std::string text = Disagreement(task, worst, chi2, dof);
     if (chi2 > 100.0 * dof && options.loss == Loss::kNone)
-      return tl::unexpected(Error{ErrorCode::kOutOfRange, text, worst.trace});
+      return tl::unexpected(Error{ErrorCode::kOutOfRange, text, worst.part});
     warnings.push_back(text);
   }
   for (std::size_t i = 0; i < adjusted->others.size() && first.determined(); ++i) {

@@ -213,23 +213,32 @@ MaybeError SharedVanishingPoint(const Photograph& photograph, const Numbers& num
   return {};
 }
 
+MaybeError WrongWithOne(const Photograph& photograph, const Numbers& numbers) {
+  if ((photograph.frame.size_px.array() < 1).any() ||
+      !(photograph.frame.size_mm.array() > 0).all() || !photograph.frame.size_mm.allFinite())
+    return OutOfRange("the photograph has no size");
+  for (int i = 0; i < static_cast<int>(photograph.traces.size()); ++i) {
+    MaybeError wrong = std::visit([&](const auto& trace) { return WrongWith(trace, numbers); },
+                                  photograph.traces[i]);
+    if (!wrong) continue;
+    wrong->part = i;
+    return wrong;
+  }
+  if (MaybeError wrong = LineTwice(photograph)) return wrong;
+  if (MaybeError wrong = AllParallel(photograph)) return wrong;
+  return SharedVanishingPoint(photograph, numbers);
+}
+
 }  // namespace
 
 std::optional<Error> WrongWith(std::span<const Photograph> photographs, const Numbers& numbers) {
+  int traces_before = 0;
   for (const Photograph& photograph : photographs) {
-    if ((photograph.frame.size_px.array() < 1).any() ||
-        !(photograph.frame.size_mm.array() > 0).all() || !photograph.frame.size_mm.allFinite())
-      return OutOfRange("the photograph has no size");
-    for (int i = 0; i < static_cast<int>(photograph.traces.size()); ++i) {
-      MaybeError wrong = std::visit([&](const auto& trace) { return WrongWith(trace, numbers); },
-                                    photograph.traces[i]);
-      if (!wrong) continue;
-      wrong->part = i;
+    if (MaybeError wrong = WrongWithOne(photograph, numbers)) {
+      if (wrong->part >= 0) wrong->part += traces_before;
       return wrong;
     }
-    if (MaybeError wrong = LineTwice(photograph)) return wrong;
-    if (MaybeError wrong = AllParallel(photograph)) return wrong;
-    if (MaybeError wrong = SharedVanishingPoint(photograph, numbers)) return wrong;
+    traces_before += static_cast<int>(photograph.traces.size());
   }
   return {};
 }

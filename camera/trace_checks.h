@@ -9,7 +9,8 @@
 
 namespace tranos::camera {
 
-// The first thing that is wrong, `part` the index of the trace (−1: of none alone): numbers or dots
+// The first thing that is wrong, `part` the index of the trace, counted through the photographs in
+// order (−1: of none alone): numbers or dots
 // that are not finite, deviations, dimensions and ratios that are not positive, edges and dots of
 // no length, a circle of less than five dots, rectangles crosswise or clockwise, two lines that are
 // the same within noise and lie beside each other by more than half, lines all parallel within

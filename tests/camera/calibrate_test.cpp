@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "camera/calibrate.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -16,6 +17,7 @@ using benchmark::Cuboids;
 using benchmark::TraceCuboid;
 using benchmark::TracedCuboid;
 using geom::ErrorCode;
+using scenes::NumberList;
 using scenes::Scene;
 using scenes::Townhouse;
 
@@ -438,6 +440,10 @@ TEST(Calibrate, ASmallWindowHasTwoPosesAndANearOneHasOne) {
   ASSERT_EQ(estimate->alternatives.size(), 1u);
   ExpectSame(estimate->camera, far.truth, 1e-5);
   const Alternative& other = estimate->alternatives[0];
+  ASSERT_EQ(other.covariance.rows(), kParameters);
+  EXPECT_GT(other.covariance.diagonal().minCoeff(), 0);
+  // The pose is another one, and so are its deviations.
+  EXPECT_GT((other.covariance - estimate->covariance).norm(), 1e-3 * estimate->covariance.norm());
   EXPECT_LT(other.chi2, estimate->chi2 + 9);
   EXPECT_EQ(other.covariance.rows(), kParameters);
   // The window's normal is mirrored about the line of sight: seen from the other side.
@@ -591,6 +597,80 @@ TEST(Calibrate, TellsOfDimensionsThatDisagree) {
   const geom::Error error = ErrorOf(scene);
   EXPECT_EQ(error.part, 8) << error.detail;
   EXPECT_NE(error.detail.find("disagree"), std::string::npos) << error.detail;
+}
+
+// Seven edges of a box in exact dots, one of them at a stated height that it does not have.
+Scene BoxWithAWrongEdge(double stated_m) {
+  Scene scene;
+  scene.photograph.frame = {{36, 24.0075}, {1600, 1067}};
+  scene.truth.parameters << 35, 1, 0, 0, 89 * kPi / 180, 12 * kPi / 180, 25 * kPi / 180,
+      0.5 * kPi / 180, 22, -24, 2;
+  const Vec3 corners[] = {{0, 0, 0}, {10, 0, 0}, {0, 0, 6}, {10, 0, 6}, {10, 14, 0}, {10, 14, 6}};
+  for (const auto& [from, to] : {std::pair(0, 1), {0, 2}, {1, 3}, {1, 4}, {3, 5}, {4, 5}, {2, 3}}) {
+    scene.Edge(corners[from], corners[to]);
+  }
+  const auto& wrong = std::get<EdgeTrace>(scene.photograph.traces[6]);
+  scene.list.values[wrong.from + 2] = scene.list.values[wrong.to + 2] = stated_m;
+  return scene;
+}
+
+TEST(Calibrate, NamesTheTraceWithoutWhichAllAgree) {
+  for (const double stated_m : {5.0, 7.0, 9.0}) {
+    const geom::Error error = ErrorOf(BoxWithAWrongEdge(stated_m));
+    EXPECT_EQ(error.part, 6) << stated_m << " m: " << error.detail;
+    // Only one other edge shows a height at all; neither is better than the other.
+    EXPECT_NE(error.detail.find("without trace 5 the rest agrees"), std::string::npos)
+        << error.detail;
+  }
+}
+
+TEST(Calibrate, NamesTheUnknownThatDisagrees) {
+  // Every edge has the height that it should have but for the stated mean, which is far off.
+  const Cuboid& cuboid = CuboidOf("B4");
+  TracedCuboid traced = TraceCuboid(cuboid, {.sigma_px = 0.1, .dimension_sigma = 0.01});
+  const char* const names[] = {"width", "depth", "height"};
+  for (int i = 0; i < 3; ++i) {
+    std::vector<Unknown> unknowns = traced.unknowns;
+    for (int k = 0; k < 3; ++k) {
+      unknowns[k] = {names[k], cuboid.dimensions_m[k] * (k == i ? 1.1 : 1), 0.01};
+    }
+    // Of one photograph with a free camera any three dimensions agree.
+    traced.photograph.priors[kAspect] = {cuboid.truth[kAspect], 1e-4};
+    traced.photograph.priors[kSkew] = {cuboid.truth[kSkew], 1e-4};
+    traced.photograph.priors[kPrincipalX] = {cuboid.truth[kPrincipalX], 1e-3};
+    traced.photograph.priors[kPrincipalY] = {cuboid.truth[kPrincipalY], 1e-3};
+    traced.photograph.priors[kFocal] = {cuboid.truth[kFocal], 1e-3};
+    const auto estimates = Calibrate(std::vector{traced.photograph}, unknowns,
+                                     [&](const Eigen::VectorXd& u) -> geom::Result<Numbers> {
+                                       return benchmark::NumbersOf(cuboid, u, 3);
+                                     });
+    const std::string told =
+        estimates ? estimates->front().warnings.front() : estimates.error().detail;
+    EXPECT_NE(told.find(fmt::format("`{}` is farthest off", names[i])), std::string::npos) << told;
+  }
+}
+
+TEST(Calibrate, ErrorsCountTracesThroughThePhotographs) {
+  const Scene sound = Townhouse();
+  const auto traces = static_cast<int>(sound.photograph.traces.size());
+  const auto part_of = [&](const Scene& scene) {
+    NumberList list = sound.list;
+    const auto first = static_cast<int>(list.values.size());
+    list.values.insert(list.values.end(), scene.list.values.begin(), scene.list.values.end());
+    Photograph second = scene.photograph;
+    for (Trace& trace : second.traces) {
+      if (auto* edge = std::get_if<EdgeTrace>(&trace)) edge->from += first, edge->to += first;
+    }
+    const auto estimates =
+        Calibrate(std::vector{sound.photograph, second}, {},
+                  [&](const Eigen::VectorXd&) -> geom::Result<Numbers> { return list.numbers(); });
+    return estimates ? -2 : estimates.error().part;
+  };
+  EXPECT_EQ(part_of(BoxWithAWrongEdge(7)), traces + 6);
+  Scene twice = BoxWithAWrongEdge(6);
+  twice.photograph.traces.push_back(twice.photograph.traces[0]);
+  EXPECT_EQ(part_of(twice), traces + 7);
+  EXPECT_EQ(part_of(BoxWithAWrongEdge(6)), -2);
 }
 
 TEST(Calibrate, TellsThatTooLittleIsTraced) { EXPECT_NE(ErrorOf(Scene{}).part, -2); }
