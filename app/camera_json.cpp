@@ -55,14 +55,21 @@ ordered_json CovarianceJson(const Estimate& estimate) {
   return rows;
 }
 
-ordered_json UnknownsJson(const Estimate& estimate) {
+// SI, and degrees for angles.
+ordered_json UnknownsJson(const model::Photograph& photograph) {
   ordered_json unknowns = ordered_json::object();
-  for (const camera::UnknownEstimate& unknown : estimate.unknowns) {
+  const Estimate& estimate = *photograph.estimate;
+  for (std::size_t i = 0; i < estimate.unknowns.size(); ++i) {
+    const camera::UnknownEstimate& unknown = estimate.unknowns[i];
     if (unknown.name.empty()) continue;
-    unknowns[unknown.name] = {{"value", unknown.value},
-                              {"sigma", unknown.determined ? ordered_json(unknown.sigma) : nullptr},
-                              {"determined", unknown.determined},
-                              {"at_bound", unknown.at_bound}};
+    const bool is_angle = i < photograph.unknown_dimensions.size() &&
+                          photograph.unknown_dimensions[i] == model::kAngle;
+    const double unit = is_angle ? geom::kPi / 180 : 1;
+    unknowns[unknown.name] = {
+        {"value", unknown.value / unit},
+        {"sigma", unknown.determined ? ordered_json(unknown.sigma / unit) : nullptr},
+        {"determined", unknown.determined},
+        {"at_bound", unknown.at_bound}};
   }
   return unknowns;
 }
@@ -101,7 +108,7 @@ ordered_json CameraJson(const model::Element& element, const model::Photograph& 
     alternative["chi2"] = other.chi2;
     json["alternatives"].push_back(std::move(alternative));
   }
-  json["unknowns"] = UnknownsJson(estimate);
+  json["unknowns"] = UnknownsJson(photograph);
   if (!estimate.profile.empty()) {
     json["profile"] = ordered_json::array();
     for (const camera::ProfilePoint& point : estimate.profile) {

@@ -291,6 +291,10 @@ void Binder::BindPoint(NodeId id, const PointKeyRow& row, const std::vector<Node
                  "`" + std::string(row.key) + "=` is given " + std::to_string(count) + " values",
                  std::string(row.summary));
   }
+  const auto type_of = [&](int i) {
+    if (row.kind == PointKey::kDot) return Type::kPixel;
+    return row.kind == PointKey::kDi && i == 1 ? Type::kAngle : Type::kLength;
+  };
   const std::uint32_t first = builder_->next_register;
   // A point of literals is one constant: most points of a recorded session are.
   const auto single = [&](NodeId value, Type type) {
@@ -311,9 +315,8 @@ void Binder::BindPoint(NodeId id, const PointKeyRow& row, const std::vector<Node
     const NodeId value = values[static_cast<std::size_t>(i)];
     const auto constant = Constant(value);
     if (!constant) break;
-    const Type type = row.kind == PointKey::kDi && i == 1 ? Type::kAngle : Type::kLength;
     try {
-      constants.push_back(Convert(*constant, type, measure(), row.key));
+      constants.push_back(Convert(*constant, type_of(i), measure(), row.key));
     } catch (const OpFailure& failure) {
       return Report(failure, SpanOf(value));
     }
@@ -331,8 +334,7 @@ void Binder::BindPoint(NodeId id, const PointKeyRow& row, const std::vector<Node
     ExpressionInto(target, value);
     // dl= and dx= take a whole offset as one value, too.
     if (count == 1) break;
-    const Type type = row.kind == PointKey::kDi && i == 1 ? Type::kAngle : Type::kLength;
-    Emit({Op::kConvert, static_cast<std::uint8_t>(type), scope_->measure, target, target,
+    Emit({Op::kConvert, static_cast<std::uint8_t>(type_of(i)), scope_->measure, target, target,
           AddText(row.key)},
          SpanOf(value));
   }

@@ -222,7 +222,8 @@ camera::SkewRange RangeOf(const Answers& answers, Span span) {
   }
   range.step_rad = answers.Number("step", range.step_rad);
   const double steps = (to_rad - range.from_rad) / range.step_rad;
-  if (!(range.step_rad > 0) || !(steps >= 0) || steps > 100'000) {
+  const bool is_skew = range.from_rad > 0.01 && to_rad < geom::kPi - 0.01;
+  if (!is_skew || !(range.step_rad > 0) || !(steps >= 0) || steps > 100'000) {
     Fail(Code::kOutOfRange, span, "the skew angles to be tried are not a range with a step", "",
          "skew=88deg..92deg step=0.01deg");
   }
@@ -254,12 +255,25 @@ geom::Result<camera::Estimate> EstimateBy(const Method& method,
   return estimate;
 }
 
+// Such a method knows of no deviations; what the data leave open is what they leave open.
+void TellOpen(const camera::Photograph& photograph, const camera::Numbers& numbers,
+              camera::Estimate* estimate) {
+  const auto likely = camera::Calibrate(photograph, numbers);
+  if (!likely) return;
+  estimate->undetermined = likely->undetermined;
+  for (int i = 0; i < camera::kParameters; ++i) {
+    estimate->parameters[i].determined = likely->parameters[i].determined;
+    estimate->parameters[i].from_prior = likely->parameters[i].from_prior;
+  }
+}
+
 geom::Result<std::vector<camera::Estimate>> EstimatesBy(const Method& method, const Traced& traced,
                                                         const camera::Numbers& numbers) {
   std::vector<camera::Estimate> estimates;
   for (const camera::Photograph& photograph : traced.photographs) {
     auto estimate = EstimateBy(method, photograph, numbers);
     if (!estimate) return tl::unexpected(estimate.error());
+    TellOpen(photograph, numbers, &*estimate);
     estimates.push_back(*std::move(estimate));
   }
   return estimates;
@@ -287,6 +301,7 @@ Fired Machine::Calibrate(const Answers& answers, const model::State& state, Span
   if (method.name == "likelihood") {
     camera::CalibrateOptions options;
     options.loss = answers.Flag("robust") ? camera::Loss::kCauchy : camera::Loss::kNone;
+    options.noise_px = traced.noise_px;
     options.noise_is_estimated = traced.noise_is_estimated;
     if (answers.Has("skew")) {
       options.profile = {
@@ -300,13 +315,44 @@ Fired Machine::Calibrate(const Answers& answers, const model::State& state, Span
       }
     }
   } else {
+    LeaveUnknowns(method.name, span);
     const auto numbers = evaluation(start);
     found = numbers ? EstimatesBy(method, traced, *numbers)
                     : geom::Result<std::vector<camera::Estimate>>(tl::unexpected(numbers.error()));
   }
-  if (evaluation.failure()) throw *evaluation.failure();
+  if (!found && evaluation.failure()) throw *evaluation.failure();
   if (!found) FailCalibration(found.error(), traced, span);
+  CheckUnknowns((*found)[0]);
   return Calibrated({evaluation, traced, silent, solved, *std::move(found)}, state, span);
+}
+
+// An unknown that nothing determines is an error, for elements may be built with it.
+void Machine::CheckUnknowns(const camera::Estimate& estimate) const {
+  for (const camera::UnknownEstimate& unknown : estimate.unknowns) {
+    if (unknown.name.empty() || unknown.determined) continue;
+    for (const UnknownInfo& info : program_.unknowns) {
+      if (info.name != unknown.name) continue;
+      Fail(Code::kNotDetermined, info.span, "nothing traced determines `" + unknown.name + "`",
+           estimate.undetermined.empty() ? "" : estimate.undetermined.front(),
+           "trace what depends on it, or say what is known of it: `unknown " + unknown.name +
+               " = 4m +- 10%`");
+    }
+  }
+}
+
+// The methods that find the camera alone take unknowns as they start.
+void Machine::LeaveUnknowns(const std::string& method, Span span) {
+  for (const UnknownInfo& info : program_.unknowns) {
+    if (info.is_free) {
+      Fail(Code::kNotCalibrated, info.span,
+           "`" + info.name + "` has no start, and `method=" + method + "` solves for no unknowns",
+           "", "`method=likelihood` does");
+    }
+    outcome_.diagnostics.Add(
+        {Code::kUnknownUnsolved, span,
+         "`" + info.name + "` keeps its start: `method=" + method + "` solves for no unknowns", "",
+         "`method=likelihood` does"});
+  }
 }
 
 // The error with the trace at fault.
@@ -362,10 +408,13 @@ Fired Machine::Calibrated(Solution solution, const model::State& before, Span sp
   run.Run();
   CheckTrail(run.machine().trail_);
   Fired fired;
-  fired.edit = Adopt(run, before);
+  fired.edit = Adopt(run, before, span);
   for (std::size_t p = 0; p < found.size(); ++p) {
     const ElementPtr element = run.state().model.Current(traced.photograph_ids[p]);
     model::Photograph photograph = *std::get<model::PhotographPtr>(element->geometry);
+    for (const std::size_t source : evaluation.sources()) {
+      photograph.unknown_dimensions.push_back(solvables_[source].dimension);
+    }
     photograph.first_source = static_cast<model::SourceId>(first_source[p]);
     Warn(found[p], *element, traced.trace_ids[p], span);
     photograph.estimate = std::make_shared<const camera::Estimate>(std::move(found[p]));
@@ -421,10 +470,22 @@ void Machine::CheckTrail(const Trail& solved) const {
 }
 
 // Everything before `calibrate` as the solved values make it, and the edit that leads there.
-model::Edit Machine::Adopt(TrialRun& solved, const model::State& before) {
+model::Edit Machine::Adopt(TrialRun& solved, const model::State& before, Span span) {
   model::Edit edit;
   const model::State& after = solved.state();
   const auto& entries = before.model.entries;
+  const auto differs = [&](ElementId id) {
+    const model::Entry &from = entries[id], &to = after.model.entries[id];
+    return from.standing != to.standing || !from.element != !to.element ||
+           (from.element && from.element->geometry.index() != to.element->geometry.index());
+  };
+  bool changed = entries.size() != after.model.entries.size();
+  for (ElementId id = 0; id < entries.size() && !changed; ++id) changed = differs(id);
+  if (changed) {
+    Fail(Code::kChoiceChanged, span,
+         "with the solved values of the unknowns other elements are made", "",
+         "give the unknowns starts nearer to their solution");
+  }
   for (ElementId id = 0; id < entries.size(); ++id) {
     const model::Entry &from = entries[id], &to = after.model.entries[id];
     const bool by_itself =
@@ -466,7 +527,7 @@ void Machine::RefuseUnknown(const Value& value, Span span, std::string_view as) 
   if (!DependsOnUnknown(value)) return;
   Fail(Code::kUnknownDecides, span,
        fmt::format("{} depends on an unknown before `calibrate` has found it", as), "",
-       "write it after `calibrate`, or give a value: `.value` is the start");
+       "write it after `calibrate`");
 }
 
 void Machine::Decide(const Value& condition, Span span) {
@@ -479,7 +540,7 @@ void Machine::Decide(const Value& condition, Span span) {
 Value Machine::WithError(Value number) {
   if (!unsolved_) return number;
   const std::size_t met = solvables_.size();
-  solvables_.push_back({{"", 0, sources_.back().sigma}});
+  solvables_.push_back({{"", 0, sources_.back().sigma}, number.dimension()});
   if (!trial_) return number;
   const auto error = trial_->values.find(met);
   if (error == trial_->values.end()) return number;
@@ -504,7 +565,7 @@ Value Machine::UnknownValue(const UnknownInfo& info, const Value& start, const V
          "`calibrate` would solve for it"});
     return start;
   }
-  Solvable solvable{{info.name, start.number(), Sigma(start, sources_)}};
+  Solvable solvable{{info.name, start.number(), Sigma(start, sources_)}, start.dimension()};
   if (info.range != UnknownInfo::kNoRange && r[info.range].kind() == Value::Kind::kRange) {
     Value from = Value::Number(r[info.range].range().from, r[info.range].dimension());
     Value to = Value::Number(r[info.range].range().to, r[info.range].dimension());

@@ -146,12 +146,18 @@ std::vector<std::string> CameraReport(const model::Element& element, const Photo
                                 estimate.chi2, estimate.dof, estimate.noise_px,
                                 estimate.noise_is_estimated ? " (estimated; Student's t)" : ""));
   }
-  for (const camera::UnknownEstimate& unknown : estimate.unknowns) {
+  for (std::size_t i = 0; i < estimate.unknowns.size(); ++i) {
+    const camera::UnknownEstimate& unknown = estimate.unknowns[i];
     if (unknown.name.empty()) continue;
-    lines.push_back(unknown.determined
-                        ? fmt::format("{} = {:.6g} ± {:.2g}{}", unknown.name, unknown.value,
-                                      unknown.sigma, unknown.at_bound ? ", at its bound" : "")
-                        : fmt::format("{} is not determined", unknown.name));
+    const model::Dimension dimension =
+        i < photograph.unknown_dimensions.size() ? photograph.unknown_dimensions[i] : model::kPlain;
+    const double unit = dimension == model::kAngle ? kDegree : 1;
+    const char* const symbol = dimension == model::kAngle    ? "°"
+                               : dimension == model::kLength ? " m"
+                                                             : "";
+    lines.push_back(fmt::format("{} = {:.6g}{} ± {:.2g}{}{}", unknown.name, unknown.value / unit,
+                                symbol, unknown.sigma / unit, symbol,
+                                unknown.at_bound ? ", at its bound" : ""));
   }
   if (estimate.trials.trials > 0) {
     std::string line = fmt::format("{} trials:", estimate.trials.trials);

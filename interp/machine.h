@@ -85,6 +85,7 @@ class Machine {
   // Something that the adjustment may solve for: an unknown, or the error of a `+-` literal.
   struct Solvable {
     camera::Unknown unknown;
+    model::Dimension dimension;
     bool taken_by_unknown = false;  // a literal that says what is known of an unknown
   };
   Fired Calibrate(const Answers& answers, const model::State& state, Span span);
@@ -93,7 +94,9 @@ class Machine {
   Fired Calibrated(Solution solution, const model::State& before, Span span);
   void Warn(const camera::Estimate& estimate, const model::Element& photograph,
             const std::vector<model::ElementId>& trace_ids, Span span);
-  model::Edit Adopt(TrialRun& solved, const model::State& before);
+  model::Edit Adopt(TrialRun& solved, const model::State& before, Span span);
+  void CheckUnknowns(const camera::Estimate& estimate) const;
+  void LeaveUnknowns(const std::string& method, Span span);
   void CheckTrail(const Trail& solved) const;
   model::Value UnknownValue(const UnknownInfo& info, const model::Value& start,
                             const model::Value* registers, Span span);

@@ -75,6 +75,7 @@ bool Machine::BeginEach(const Instruction& i, Value* r, Span span) {
     Fail(Code::kBadLoop, span, "a loop goes through a list, not through " + Describe(list), "",
          "for i = 1 to 8 counts");
   }
+  if (unsolved_) trail_.push_back({span, static_cast<std::uint32_t>(list.list().size())});
   if (list.list().empty()) return false;
   turns_.push_back(0);
   turn_values_.push_back(&r[i.b]);

@@ -146,7 +146,12 @@ void Machine::Compute(const Instruction& i, const CodeUnit& unit, Value* r, Span
       r[i.a] = Member(ContextOf(i, span), b(), c().string());
       break;
     case Op::kIndex:
-      if (unsolved_) RefuseUnknown(c(), span, "an index");
+      if (unsolved_) {
+        RefuseUnknown(c(), span, "an index");
+        if (c().is_number())
+          trail_.push_back(
+              {span, static_cast<std::uint32_t>(static_cast<std::int64_t>(c().number()))});
+      }
       r[i.a] = IndexInto(b(), c());
       break;
     case Op::kConvert:

@@ -22,13 +22,13 @@ constexpr int kCurvePoints = 513;
 class Gathering {
  public:
   Gathering(const model::State& state, ElementId only) : state_(state) {
-    state.model.ForEach([&](const ElementPtr& element) {
+    ForEachPart([&](const ElementPtr& element) {
       const auto* photograph = std::get_if<model::PhotographPtr>(&element->geometry);
       const bool meant = only == model::kNoElement ? photograph && !(*photograph)->file.empty()
                                                    : element->id == only;
       if (photograph && meant) Add(*element, **photograph);
     });
-    state.model.ForEach([&](const ElementPtr& element) {
+    ForEachPart([&](const ElementPtr& element) {
       if (const auto* trace = std::get_if<model::TracePtr>(&element->geometry)) {
         Add(element->id, **trace);
       }
@@ -37,6 +37,16 @@ class Gathering {
   Traced Take() { return std::move(out_); }
 
  private:
+  // Elements of the model, and members of its groups.
+  template <class F>
+  void ForEachPart(F&& f) {
+    state_.model.entries.ForEach([&](const model::Entry& entry) {
+      const bool stands =
+          entry.standing == model::Standing::kInModel || entry.standing == model::Standing::kMember;
+      if (entry.element && stands) f(entry.element);
+    });
+  }
+
   void Add(const model::Element& element, const model::Photograph& photograph) {
     place_[element.id] = out_.photographs.size();
     camera::Photograph& added = out_.photographs.emplace_back();
@@ -52,6 +62,8 @@ class Gathering {
     if (place == place_.end()) return;
     const auto made = Made(trace);
     if (!made) return;
+    if (is_first_) out_.noise_px = trace.noise_px;
+    is_first_ = false;
     out_.photographs[place->second].traces.push_back(*made);
     out_.trace_ids[place->second].push_back(id);
   }
@@ -131,6 +143,7 @@ class Gathering {
 
   const model::State& state_;
   Traced out_;
+  bool is_first_ = true;
   std::map<ElementId, std::size_t> place_;
   std::map<std::string, int> facades_;
 };

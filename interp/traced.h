@@ -17,6 +17,7 @@ struct Traced {
   std::vector<std::vector<model::ElementId>> trace_ids;  // of each, by trace
   std::vector<model::Value> numbers;                     // by camera::NumberIndex, in SI
   std::vector<std::pair<int, int>> shaped;  // first number and count of those read off an element
+  double noise_px = 0.5;                    // of the first trace
   bool noise_is_estimated = false;
 };
 // Of the photograph with this id, or of all attached ones.

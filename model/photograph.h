@@ -28,6 +28,7 @@ struct Photograph {
   // The first of the sources that its numbers' deviations came from: independent ones with a
   // deviation of 1, as many as the covariance has columns. Of a run, as an id is.
   SourceId first_source = 0;
+  std::vector<Dimension> unknown_dimensions = {};  // of each of the estimate's unknowns
 };
 
 struct Trace {

@@ -98,6 +98,31 @@ CommandResult AttachPhoto(const State& state, const Answers& answers,
   return Attach(std::move(photograph), state);
 }
 
+// What no camera can be.
+std::optional<CommandError> NoCamera(const camera::Camera& c) {
+  const auto refuse = [](std::string message, std::string_view key) {
+    return CommandError{
+        .code = Code::kOutOfRange, .message = std::move(message), .where = AtKey(key)};
+  };
+  if (!(c[camera::kFocal] > 0 && c[camera::kFocal] < 1e7)) {
+    return refuse("a focal length is above zero, and below 10 km", "f");
+  }
+  if (!(c[camera::kAspect] > 1e-3 && c[camera::kAspect] < 1e3)) {
+    return refuse("an aspect ratio is near 1", "aspect");
+  }
+  if (!(c[camera::kSkew] > kDegree && c[camera::kSkew] < kPi - kDegree)) {
+    return refuse("the angle between a dot's axes is near 90 degrees", "skew");
+  }
+  for (const camera::Parameter angle : {camera::kOmega, camera::kPhi, camera::kKappa}) {
+    if (!(std::abs(c[angle]) <= 1e3 * kPi)) return refuse("the angle is too large", "omega");
+  }
+  if (!(c.position_m().norm() < kFarthest_m) ||
+      !(c.parameters.segment<2>(camera::kPrincipalX).norm() < 1e7)) {
+    return refuse("the camera would be out of reach", "x");
+  }
+  return std::nullopt;
+}
+
 CommandResult PlaceCamera(const State& state, const Answers& answers) {
   model::Photograph photograph;
   const auto size_mm = FormatOf(*answers.Find("format"));
@@ -114,21 +139,7 @@ CommandResult PlaceCamera(const State& state, const Answers& answers) {
   c[camera::kOmega] = answers.Number("omega");
   c[camera::kPhi] = answers.Number("phi");
   c[camera::kKappa] = answers.Number("kappa");
-  if (!(c[camera::kFocal] > 0)) {
-    return Fail({.code = Code::kOutOfRange,
-                 .message = "a focal length is above zero",
-                 .where = AtKey("f")});
-  }
-  if (!(c[camera::kAspect] > 0)) {
-    return Fail({.code = Code::kOutOfRange,
-                 .message = "an aspect ratio is above zero",
-                 .where = AtKey("aspect")});
-  }
-  if (!(c[camera::kSkew] > kDegree && c[camera::kSkew] < kPi - kDegree)) {
-    return Fail({.code = Code::kOutOfRange,
-                 .message = "the angle between a dot's axes is near 90 degrees",
-                 .where = AtKey("skew")});
-  }
+  if (auto error = NoCamera(c)) return Fail(*error);
   if (const Value* principal = answers.Find("principal")) {
     const auto mm = PairOf(*principal, 1e-3);
     if (!mm) {
@@ -245,7 +256,7 @@ CommandResult StepCamera(const State& state, const Answers& answers) {
   const auto found = PhotographMeant(state, answers);
   if (!found) return Fail(found.error());
   model::Photograph changed = PhotographOf(**found);
-  if (!changed.estimate) return Fail(NoCameraYet(**found));
+  if (!changed.estimate || !changed.estimate->determined()) return Fail(NoCameraYet(**found));
   auto estimate = std::make_shared<camera::Estimate>();
   const camera::Camera before = changed.estimate->camera;
   estimate->camera = before;
@@ -260,16 +271,13 @@ CommandResult StepCamera(const State& state, const Answers& answers) {
                  .message = "which parameter is to be moved, and how far?",
                  .help = "step camera paper omega=0.1deg"});
   }
-  if (!(estimate->camera[camera::kFocal] > 0 && estimate->camera[camera::kAspect] > 0)) {
-    return Fail({.code = Code::kOutOfRange,
-                 .message = "the step leaves no focal length or aspect ratio above zero"});
-  }
+  if (auto error = NoCamera(estimate->camera)) return Fail(*error);
   Fired fired;
   const auto penalty = PenaltyOf(state, **found, before);
   const auto after = PenaltyOf(state, **found, estimate->camera);
-  fired.messages.push_back(penalty && after
-                               ? fmt::format("penalty {:.4f}, was {:.4f}", *after, *penalty)
-                               : "no edge with a place in space is traced: no penalty");
+  fired.messages.push_back(
+      penalty && after ? fmt::format("penalty {:.4f}, was {:.4f}", *after, *penalty)
+                       : "no penalty: no edge with a place in space is traced before this camera");
   changed.estimate = std::move(estimate);
   fired.edit.replaced.push_back(WithPhotograph(**found, std::move(changed)));
   return fired;

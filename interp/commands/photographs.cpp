@@ -64,7 +64,8 @@ ElementPtr WithPhotograph(const model::Element& element, model::Photograph photo
 
 CommandError NoCameraYet(const model::Element& photograph) {
   return {.code = Code::kNotDetermined,
-          .message = fmt::format("{} has no camera yet", NameForMessage(photograph)),
+          .message = fmt::format("{} has no camera, or one that is not determined",
+                                 NameForMessage(photograph)),
           .help = "trace edges whose place is known, then `calibrate`"};
 }
 
