@@ -7,8 +7,8 @@
 
 namespace tranos::app {
 
-// A photograph's camera as docs/language.md, "What a run reports" describes it: millimetres, degrees,
-// metres; null for what is not determined.
+// A photograph's camera as docs/language.md, "What a run reports" describes it: millimetres,
+// degrees, metres; null for what is not determined.
 nlohmann::ordered_json CameraJson(const model::Element& element,
                                   const model::Photograph& photograph);
 

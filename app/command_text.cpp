@@ -34,7 +34,6 @@ std::string PlacingManner(const Command& c) {
 
 }  // namespace
 
-
 std::string MannerOf(const Command& c) {
   switch (c.manner) {
     case Manner::kImmediate:

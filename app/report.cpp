@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "app/camera_json.h"
 #include "app/report.h"
+#include "app/camera_json.h"
 
 #include <algorithm>
 #include <cmath>

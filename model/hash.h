@@ -23,7 +23,7 @@ struct Hash128 {
 // Sum and difference modulo 2¹²⁸: the hash of a set is the sum of its members' hashes.
 Hash128 operator+(const Hash128& a, const Hash128& b);
 Hash128 operator-(const Hash128& a, const Hash128& b);
-std::string Hex(const Hash128& hash);  // 32 lower-case digits
+std::string Hex(const Hash128& hash);                         // 32 lower-case digits
 std::optional<Hash128> HashFromHex(std::string_view digits);  // nothing for other text
 
 // Gathers canonical bytes. Numbers that are no finite double hash as themselves, not as a crash.

@@ -12,9 +12,7 @@ namespace tranos::interp {
 namespace {
 
 bool IsCode(std::string_view expect) { return FindCode(expect).has_value(); }
-bool IsCarriedOut(const Command& row) {
-  return row.exists();
-}
+bool IsCarriedOut(const Command& row) { return row.exists(); }
 
 // The examples' photograph.
 tl::expected<std::string, HostError> ReadExampleFile(std::string_view path) {

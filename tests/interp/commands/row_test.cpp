@@ -10,9 +10,7 @@ namespace tranos::interp {
 namespace {
 
 bool IsCode(std::string_view expect) { return FindCode(expect).has_value(); }
-bool IsCarriedOut(const Command& row) {
-  return row.exists();
-}
+bool IsCarriedOut(const Command& row) { return row.exists(); }
 
 TEST(Row, WordsAreUniqueLowerCaseAndFound) {
   std::set<std::string_view> seen;
