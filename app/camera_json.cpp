@@ -102,6 +102,7 @@ ordered_json CameraJson(const model::Element& element, const model::Photograph& 
   json["chi2"] = estimate.chi2;
   json["dof"] = estimate.dof;
   json["noise_px"] = estimate.noise_px;
+  json["noise_is_estimated"] = estimate.noise_is_estimated;
   json["alternatives"] = ordered_json::array();
   for (const camera::Alternative& other : estimate.alternatives) {
     ordered_json alternative = PoseJson(value_of(other.camera));

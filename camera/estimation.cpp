@@ -93,7 +93,9 @@ void WarnOfAngles(const Camera& camera, std::vector<std::string>& warnings) {
     Parameter parameter;
   } angles[] = {{"tilt", kOmega}, {"pan", kPhi}};
   for (const auto& [name, parameter] : angles) {
-    const double degrees = std::abs(camera[parameter]) * 180 / kPi;
+    // From the nearer way along Y: the camera may stand behind the building.
+    const double turned = std::fmod(std::abs(camera[parameter]) * 180 / kPi, 180);
+    const double degrees = std::min(turned, 180 - turned);
     if (degrees >= 5 && degrees <= 40) continue;
     warnings.push_back(fmt::format(
         "the {} of {:.2f}° is outside 5° to 40°, where methods by vanishing points are weak", name,

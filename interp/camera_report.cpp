@@ -91,6 +91,35 @@ std::string ParameterLine(const camera::Estimate& estimate, Parameter parameter,
   return line;
 }
 
+// From the camera to dots, a line each row.
+void AddCalibrationMatrix(const camera::Camera& camera, const camera::Frame& frame,
+                          std::vector<std::string>* lines) {
+  const camera::Mat3 k = frame.DotFromFrame() * camera::FrameFromCamera(camera.parameters);
+  for (int row = 0; row < 3; ++row) {
+    lines->push_back(fmt::format("{} [{:11.3f} {:11.3f} {:11.3f}]{}", row == 1 ? "K =" : "   ",
+                                 k(row, 0), k(row, 1), k(row, 2), row == 1 ? " px" : ""));
+  }
+}
+
+// What remains of the traces, in deviations.
+std::string ResidualLine(const camera::Estimate& estimate) {
+  double sum = 0, largest = 0;
+  std::size_t count = 0;
+  int worst = 0;
+  for (const camera::TraceResidual& trace : estimate.residuals) {
+    for (const double residual : trace.whitened) {
+      sum += residual * residual;
+      ++count;
+      if (std::abs(residual) <= largest) continue;
+      largest = std::abs(residual);
+      worst = trace.trace;
+    }
+  }
+  return fmt::format("residuals of {} traces, in deviations: rms {:.2f}, largest {:.2f} (trace {})",
+                     estimate.residuals.size(), std::sqrt(sum / static_cast<double>(count)),
+                     largest, worst + 1);
+}
+
 }  // namespace
 
 Eigen::MatrixXd FactorOf(const Eigen::MatrixXd& covariance) {
@@ -140,12 +169,16 @@ std::vector<std::string> CameraReport(const model::Element& element, const Photo
   for (int p = 0; p < camera::kParameters; ++p) {
     lines.push_back(ParameterLine(estimate, static_cast<Parameter>(p), stated));
   }
+  if (estimate.determined()) {
+    AddCalibrationMatrix(estimate.camera, photograph.frame, &lines);
+  }
   if (stated) return lines;
   if (estimate.covariance.size() > 0) {
     lines.push_back(fmt::format("χ² {:.3f}, {} degrees of freedom, noise {:.3f} px{}",
                                 estimate.chi2, estimate.dof, estimate.noise_px,
                                 estimate.noise_is_estimated ? " (estimated; Student's t)" : ""));
   }
+  if (!estimate.residuals.empty()) lines.push_back(ResidualLine(estimate));
   for (std::size_t i = 0; i < estimate.unknowns.size(); ++i) {
     const camera::UnknownEstimate& unknown = estimate.unknowns[i];
     if (unknown.name.empty()) continue;
