@@ -112,6 +112,7 @@ std::string Sentence(const Eigen::MatrixXd& open, const std::vector<Quantity>& q
 
 std::vector<std::string> SentencesOf(const Eigen::MatrixXd& open,
                                      const std::vector<Quantity>& quantities) {
+  if (open.cols() == 0) return {};  // an empty matrix has no rows to look at, either
   // Directions that move nothing but the position are scale and place, and are told apart from
   // those of which the camera's own parameters are a part.
   Eigen::MatrixXd inner = open;
@@ -125,6 +126,7 @@ std::vector<std::string> SentencesOf(const Eigen::MatrixXd& open,
   const Eigen::MatrixXd turned = open * svd.matrixV();
   std::vector<std::string> sentences;
   if (mixed > 0) sentences.push_back(Sentence(turned.leftCols(mixed), quantities));
+  if (mixed == open.cols()) return sentences;
   const Eigen::MatrixXd outer = turned.rightCols(open.cols() - mixed);
   for (Eigen::Index i = 0; i < outer.rows(); ++i) {
     if (quantities[i].kind != Kind::kPosition || !(outer.row(i).norm() > kShare)) continue;

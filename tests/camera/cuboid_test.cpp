@@ -41,11 +41,11 @@ ParameterVector BoundOf(const Cuboid& cuboid, const Frame& frame) {
         LongParameters step = LongParameters::Zero();
         step[i] = 1e-6L;
         const LongParameters at = cuboid.truth.parameters.cast<Long>();
-        const auto slope =
+        const Eigen::Matrix<Long, 2, 1> slope =
             (Offsets(at + step, cuboid, edge, frame) - Offsets(at - step, cuboid, edge, frame)) /
             2e-6L;
         const Long scale = sign > 0 ? std::sqrt(samples) / 2 : std::sqrt(samples / 12);
-        gradient[i] = scale * (slope.eval()[1] + sign * slope.eval()[0]);
+        gradient[i] = scale * (slope[1] + sign * slope[0]);
       }
       information += gradient * gradient.transpose();
     }
