@@ -462,7 +462,7 @@ Panel PanelOfPenalty(const char* name) {
   if (const auto found = camera::CalibrateSweep(traced.photograph, traced.numbers))
     add(kSweep, found->curve);
   camera::CalibrateOptions options;
-  options.profile = camera::ProfileRange{88 * kDegree, 92 * kDegree, 0.01 * kDegree};
+  options.profile = camera::SkewRange{88 * kDegree, 0.01 * kDegree, 401};
   if (const auto found = camera::Calibrate(traced.photograph, traced.numbers, options))
     add(kLikelihood, found->profile);
   panel.y = LogarithmicAxis("penalty, χ²", least, most);

@@ -5,6 +5,7 @@
 
 #include "camera/facade_plane.h"
 #include "camera/residuals.h"
+#include "camera/space_traces.h"
 
 namespace tranos::camera {
 
@@ -237,12 +238,8 @@ void StartShape(const View& view, const FacadePlane& plane, const Trace& trace, 
 }  // namespace
 
 bool WorldIsFixed(std::span<const Photograph> photographs) {
-  return std::ranges::any_of(photographs, [](const Photograph& photograph) {
-    return std::ranges::any_of(photograph.traces, [](const Trace& trace) {
-      return std::holds_alternative<EdgeTrace>(trace) ||
-             std::holds_alternative<PointTrace>(trace) || std::holds_alternative<CurveTrace>(trace);
-    });
-  });
+  return std::ranges::any_of(photographs,
+                             [](const Photograph& photograph) { return WorldIsFixed(photograph); });
 }
 
 Layout LayoutOf(std::span<const Photograph> photographs, std::span<const Unknown> unknowns) {

@@ -471,25 +471,22 @@ std::vector<TrialSpread> Trials(const Task& task, const Refined& near, int trial
   return spread;
 }
 
-bool IsSound(const ProfileRange& range) {
-  const double steps = (range.to_rad - range.from_rad) / range.step_rad;
-  return range.step_rad > 0 && std::isfinite(range.from_rad) && steps >= 0 && steps <= 1e5;
+bool IsSound(const SkewRange& range) {
+  return range.step_rad > 0 && std::isfinite(range.at(range.count)) && range.count >= 1 &&
+         range.count <= 100'001;
 }
 
 // From the estimate outward on both sides, each from its neighbour.
-std::vector<ProfilePoint> Profile(const Task& task, const Refined& best,
-                                  const ProfileRange& range) {
-  const auto count =
-      static_cast<int>(std::floor((range.to_rad - range.from_rad) / range.step_rad + 0.5));
-  std::vector<ProfilePoint> profile(std::max(count + 1, 0));
-  for (int i = 0; i <= count; ++i) {
-    profile[i] = {range.from_rad + i * range.step_rad, std::numeric_limits<double>::infinity()};
+std::vector<ProfilePoint> Profile(const Task& task, const Refined& best, const SkewRange& range) {
+  std::vector<ProfilePoint> profile(static_cast<std::size_t>(range.count));
+  for (int i = 0; i < range.count; ++i) {
+    profile[i] = {range.at(i), std::numeric_limits<double>::infinity()};
   }
   const double here = (best.state[kSkew] - range.from_rad) / range.step_rad;
-  const int middle = std::clamp(static_cast<int>(std::lround(here)), 0, std::max(count, 0));
+  const int middle = std::clamp(static_cast<int>(std::lround(here)), 0, range.count - 1);
   for (const int way : {1, -1}) {
     Refined near = best;
-    for (int i = way > 0 ? middle : middle - 1; i >= 0 && i <= count; i += way) {
+    for (int i = way > 0 ? middle : middle - 1; i >= 0 && i < range.count; i += way) {
       Task held = task;
       held.refine.skew_rad = profile[i].alpha_rad;
       auto refined = RefineAgain(held, near);

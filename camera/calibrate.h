@@ -9,22 +9,17 @@
 
 #include "camera/estimate.h"
 #include "camera/refinement.h"
+#include "camera/sweep.h"
 
 namespace tranos::camera {
 
-struct ProfileRange {
-  double from_rad;
-  double to_rad;
-  double step_rad;  // > 0
-};
-
 struct CalibrateOptions {
   Loss loss = Loss::kNone;
-  double noise_px = 0.5;                // of a dot, as stated: only to be told in the result
-  bool noise_is_estimated = false;      // stated deviations then say only how dots compare
-  int trials = 0;                       // resamplings, the paper's Step I
-  std::uint64_t seed = 1;               // of these
-  std::optional<ProfileRange> profile;  // χ² over the skew of the first photograph
+  double noise_px = 0.5;             // of a dot, as stated: only to be told in the result
+  bool noise_is_estimated = false;   // stated deviations then say only how dots compare
+  int trials = 0;                    // resamplings, the paper's Step I
+  std::uint64_t seed = 1;            // of these
+  std::optional<SkewRange> profile;  // χ² over the skew of the first photograph
 };
 
 // An estimate for each photograph, all from one adjustment; what is told of unknowns, χ² and

@@ -303,10 +303,7 @@ Fired Machine::Calibrate(const Answers& answers, const model::State& state, Span
     options.loss = answers.Flag("robust") ? camera::Loss::kCauchy : camera::Loss::kNone;
     options.noise_px = traced.noise_px;
     options.noise_is_estimated = traced.noise_is_estimated;
-    if (answers.Has("skew")) {
-      options.profile = {
-          {method.range.from_rad, method.range.at(method.range.count - 1), method.range.step_rad}};
-    }
+    if (answers.Has("skew")) options.profile = method.range;
     options.trials = static_cast<int>(std::min(answers.Number("trials"), 100'000.0));
     found = camera::Calibrate(traced.photographs, evaluation.unknowns(), evaluate, options);
     if (found) {

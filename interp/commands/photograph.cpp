@@ -42,14 +42,6 @@ tl::expected<geom::Vec2, CommandError> FormatOf(const Value& given) {
                .where = AtKey("format")});
 }
 
-CommandResult Attach(model::Photograph photograph, const State& state) {
-  Fired fired;
-  fired.edit.added.push_back(
-      NewElement(state, std::make_shared<const model::Photograph>(std::move(photograph))));
-  fired.edit.photograph = model::kAddedBase;
-  return fired;
-}
-
 // Its size and content; a file is read once in a run.
 tl::expected<PhotographFile, CommandError> ReadPhotograph(const std::string& file,
                                                           const Surroundings& surroundings) {
@@ -95,7 +87,9 @@ CommandResult AttachPhoto(const State& state, const Answers& answers,
     photograph.frame.size_mm = photograph.frame.size_px.cast<double>() *
                                (kLongerSide / photograph.frame.size_px.maxCoeff());
   }
-  return Attach(std::move(photograph), state);
+  Fired fired = *Make(state, std::make_shared<const model::Photograph>(std::move(photograph)));
+  fired.edit.photograph = model::kAddedBase;
+  return fired;
 }
 
 // What no camera can be.
@@ -153,10 +147,7 @@ CommandResult PlaceCamera(const State& state, const Answers& answers) {
   if (auto error = TooFar(answers)) return Fail(*error);
   c.parameters.tail<3>() = answers.points[0];
   photograph.estimate = std::make_shared<const camera::Estimate>(std::move(stated));
-  Fired fired;
-  fired.edit.added.push_back(
-      NewElement(state, std::make_shared<const model::Photograph>(std::move(photograph))));
-  return fired;
+  return Make(state, std::make_shared<const model::Photograph>(std::move(photograph)));
 }
 
 CommandResult SetCamera(const State& state, const Answers& answers) {

@@ -280,7 +280,7 @@ TEST(Calibrate, APriorAnswersWhereTheDataDoNot) {
 TEST(Calibrate, ThePenaltyOfOneFacadeIsFlatOverTheSkew) {
   const Scene scene = OneFacade(11);
   CalibrateOptions options;
-  options.profile = ProfileRange{88 * kPi / 180, 92 * kPi / 180, 0.5 * kPi / 180};
+  options.profile = SkewRange{88 * kPi / 180, 0.5 * kPi / 180, 9};
   const auto estimate = Calibrate(scene.photograph, scene.list.numbers(), options);
   ASSERT_TRUE(estimate.has_value());
   ASSERT_EQ(estimate->profile.size(), 9u);
@@ -351,7 +351,7 @@ TEST(Calibrate, TheProfileIsLeastAtTheEstimateAndAsWideAsItsDeviation) {
   ASSERT_TRUE(plain.has_value());
   const double best = plain->camera[kSkew], sigma = plain->parameters[kSkew].sigma;
   CalibrateOptions options;
-  options.profile = ProfileRange{best - 3 * sigma, best + 3 * sigma, 0.5 * sigma};
+  options.profile = SkewRange{best - 3 * sigma, 0.5 * sigma, 13};
   const auto estimate = Calibrate(traced.photograph, traced.numbers, options);
   ASSERT_TRUE(estimate.has_value());
   ASSERT_EQ(estimate->profile.size(), 13u);

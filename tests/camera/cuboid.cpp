@@ -256,4 +256,16 @@ Numbers NumbersOf(const Cuboid& cuboid, const Vec3& dimensions_m, int unknowns) 
   return numbers;
 }
 
+TracedCuboid TracePoints(const Cuboid& cuboid, const std::vector<int>& vertices) {
+  TracedCuboid traced;
+  traced.photograph.frame = FrameOf(kHi);
+  traced.numbers = NumbersOf(cuboid, cuboid.dimensions_m, 0);
+  for (const int index : vertices) {
+    const Vec3 vertex = Vertex(index, cuboid.dimensions_m, cuboid.offset_m);
+    const Vec2 dot = traced.photograph.frame.DotFromPoint(Project(cuboid.truth, vertex).point_mm);
+    traced.photograph.traces.push_back(PointTrace{dot, 0.5, 3 * index});
+  }
+  return traced;
+}
+
 }  // namespace tranos::camera::benchmark

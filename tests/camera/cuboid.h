@@ -68,6 +68,8 @@ struct TracedCuboid {
   Vec3 dimensions_m;              // as believed
 };
 TracedCuboid TraceCuboid(const Cuboid&, const Tracing&);
+// Its vertices of these indices as control points, exact, in the frame `hi`.
+TracedCuboid TracePoints(const Cuboid&, const std::vector<int>& vertices);
 // The numbers for other dimensions, with derivatives by as many unknowns: 0 or 3.
 Numbers NumbersOf(const Cuboid&, const Vec3& dimensions_m, int unknowns);
 

@@ -11,21 +11,9 @@ namespace {
 
 using namespace benchmark;
 
-TracedCuboid Points(const Cuboid& cuboid, const std::vector<int>& vertices) {
-  TracedCuboid traced;
-  traced.photograph.frame = FrameOf(kHi);
-  traced.numbers = NumbersOf(cuboid, cuboid.dimensions_m, 0);
-  for (const int index : vertices) {
-    const Vec3 vertex = Vertex(index, cuboid.dimensions_m, cuboid.offset_m);
-    const Vec2 dot = traced.photograph.frame.DotFromPoint(Project(cuboid.truth, vertex).point_mm);
-    traced.photograph.traces.push_back(PointTrace{dot, 0.5, 3 * index});
-  }
-  return traced;
-}
-
 TEST(Dlt, ExactPointsOrEdgesGiveAllElevenParametersAndTheGoldenPixels) {
   for (const Cuboid& cuboid : Cuboids()) {
-    std::vector<TracedCuboid> all = {Points(cuboid, {0, 1, 4, 5, 6, 7, 2})};
+    std::vector<TracedCuboid> all = {TracePoints(cuboid, {0, 1, 4, 5, 6, 7, 2})};
     if (cuboid.determined()) all.push_back(TraceCuboid(cuboid, {}));
     for (const TracedCuboid& traced : all) {
       const auto camera = CalibrateDlt(traced.photograph, traced.numbers);
@@ -42,18 +30,18 @@ TEST(Dlt, ExactPointsOrEdgesGiveAllElevenParametersAndTheGoldenPixels) {
 
 TEST(Dlt, PointsOfAPlaneOrTooFewLeaveItOpen) {
   const Cuboid& cuboid = CuboidOf("B1");
-  const TracedCuboid few = Points(cuboid, {0, 1, 4, 5, 6});
+  const TracedCuboid few = TracePoints(cuboid, {0, 1, 4, 5, 6});
   EXPECT_FALSE(CalibrateDlt(few.photograph, few.numbers));
   const TracedCuboid facade = TraceCuboid(CuboidOf("L3"), {});
   EXPECT_FALSE(CalibrateDlt(facade.photograph, facade.numbers));
-  TracedCuboid plane = Points(cuboid, {0, 1, 2, 3, 0, 1, 2, 3});
+  TracedCuboid plane = TracePoints(cuboid, {0, 1, 2, 3, 0, 1, 2, 3});
   const auto camera = CalibrateDlt(plane.photograph, plane.numbers);
   ASSERT_FALSE(camera);
   EXPECT_NE(camera.error().detail.find("plane"), std::string::npos);
 }
 
 TEST(Dlt, AMirroredPictureIsAnError) {
-  TracedCuboid traced = Points(CuboidOf("B1"), {0, 1, 2, 4, 5, 6, 7});
+  TracedCuboid traced = TracePoints(CuboidOf("B1"), {0, 1, 2, 4, 5, 6, 7});
   for (Trace& trace : traced.photograph.traces) {
     Vec2& dot = std::get<PointTrace>(trace).dot_px;
     dot.x() = 1599 - dot.x();

@@ -11,18 +11,6 @@ namespace {
 
 using namespace benchmark;
 
-TracedCuboid Points(const Cuboid& cuboid, const std::vector<int>& vertices) {
-  TracedCuboid traced;
-  traced.photograph.frame = FrameOf(kHi);
-  traced.numbers = NumbersOf(cuboid, cuboid.dimensions_m, 0);
-  for (const int index : vertices) {
-    const Vec3 vertex = Vertex(index, cuboid.dimensions_m, cuboid.offset_m);
-    const Vec2 dot = traced.photograph.frame.DotFromPoint(Project(cuboid.truth, vertex).point_mm);
-    traced.photograph.traces.push_back(PointTrace{dot, 0.5, 3 * index});
-  }
-  return traced;
-}
-
 // A camera before a corner of a cuboid from which three faces are seen.
 Cuboid AtAngles(double tilt_deg, double pan_deg) {
   Cuboid cuboid = CuboidOf("B3");
@@ -101,7 +89,7 @@ TEST(Starts, FromControlPoints) {
                                            {0, 1, 4, 6, 7},
                                            {0, 1, 2, 4, 5, 6},
                                            {0, 1, 2, 3, 4, 5, 6, 7}}) {
-    const TracedCuboid traced = Points(cuboid, vertices);
+    const TracedCuboid traced = TracePoints(cuboid, vertices);
     const std::vector<Camera> starts = Starts(traced.photograph, traced.numbers);
     EXPECT_LT(Nearest(starts, cuboid.truth), 1e-5) << vertices.size();
   }
