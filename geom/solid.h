@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Solids as values: closed meshes, and unions, differences and intersections of them that are
+// evaluated when their facets are asked for, all at once and exactly: every corner of a result is
+// computed from the facets of the meshes it began with, and rounded once.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "geom/triangle_mesh.h"
+
+namespace tranos::geom {
+
+class Solid {
+ public:
+  // A solid with this surface, which is closed and looks outward; kNotClosed if it is not,
+  // kDegenerate if it encloses nothing.
+  static Result<Solid> FromMesh(TriangleMesh mesh);
+  // Of any number of solids, at least one; the first one alone is that one.
+  static Solid Union(std::vector<Solid> parts);
+  static Solid Intersection(std::vector<Solid> parts);
+  static Solid Difference(Solid of, std::vector<Solid> by);
+
+  // A reflection keeps the inside inside.
+  Solid Transformed(const Affine& target_from_source) const;
+
+  // The facets of its surface, evaluated at the first call and kept; no triangles for an empty
+  // solid. kTooLarge above ten million triangles.
+  Result<std::shared_ptr<const TriangleMesh>> Facets() const;
+  // Around everything it could fill, without evaluating it.
+  Box Bounds() const;
+
+  // What it is made of.
+  struct Node;
+  const Node& node() const { return *node_; }
+
+ private:
+  explicit Solid(std::shared_ptr<const Node> node) : node_(std::move(node)) {}
+  std::shared_ptr<const Node> node_;
+};
+
+struct Solid::Node {
+  enum class Kind : std::uint8_t { kMesh, kTransformed, kUnion, kIntersection, kDifference };
+  Kind kind;
+  std::vector<Solid> parts = {};  // of a difference the first is what the others are cut from
+  TriangleMesh mesh = {};         // of kMesh
+  Affine target_from_source = Affine::Identity();  // of kTransformed
+  Box bounds = {};
+  // For whoever hashes contents: kept here, so that a solid of a hundred thousand steps is hashed
+  // in as many. Both zero until then.
+  mutable std::array<std::uint64_t, 2> content_hash = {};
+  mutable std::shared_ptr<const TriangleMesh> facets = nullptr;  // once evaluated
+  ~Node();  // takes deep trees apart without recursion
+};
+
+}  // namespace tranos::geom
