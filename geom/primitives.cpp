@@ -12,4 +12,15 @@ Affine Frame::WorldFromFrame() const {
   return world_from_frame;
 }
 
+Box Carried(const Box& box, const Affine& target_from_source) {
+  Box carried;
+  if (box.empty()) return carried;
+  for (int i = 0; i < 8; ++i) {
+    carried.Add(target_from_source * Vec3(i & 1 ? box.max.x() : box.min.x(),
+                                          i & 2 ? box.max.y() : box.min.y(),
+                                          i & 4 ? box.max.z() : box.min.z()));
+  }
+  return carried;
+}
+
 }  // namespace tranos::geom

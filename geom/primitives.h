@@ -36,11 +36,14 @@ struct Frame {
 struct Box {
   Vec3 min = Vec3::Constant(std::numeric_limits<double>::infinity());
   Vec3 max = Vec3::Constant(-std::numeric_limits<double>::infinity());
-  bool empty() const { return !(min.x() <= max.x()); }
+  bool empty() const { return !(min.array() <= max.array()).all(); }
   void Add(const Vec3& p) { min = min.cwiseMin(p), max = max.cwiseMax(p); }
   void Add(const Box& b) { min = min.cwiseMin(b.min), max = max.cwiseMax(b.max); }
   Vec3 centre() const { return 0.5 * (min + max); }
 };
+
+// Around the box's image.
+Box Carried(const Box& box, const Affine& target_from_source);
 
 // How finely curved things are turned into facets: by the largest distance between
 // chord and curve, or, if facets_per_turn > 0, by the facets of a full turn, the first

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "geom/solid_rounding.h"
+
+#include <algorithm>
+#include <map>
+
+namespace tranos::geom {
+
+namespace {
+
+using Corners = std::array<std::uint32_t, 3>;
+
+// More rounds than were ever needed: each is of displacements of a last bit.
+constexpr int kMostRounds = 6;
+
+bool IsLine(const TriangleMesh& mesh, const Corners& t) {
+  const Vec3 &a = mesh.positions[t[0]], &b = mesh.positions[t[1]], &c = mesh.positions[t[2]];
+  return (b - a).cross(c - a).isZero(0);
+}
+
+void EraseMarked(const std::vector<bool>& is_gone, TriangleMesh* mesh) {
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < mesh->triangles.size(); ++i) {
+    if (is_gone[i]) continue;
+    mesh->triangles[kept] = mesh->triangles[i];
+    mesh->surfaces[kept++] = mesh->surfaces[i];
+  }
+  mesh->triangles.resize(kept);
+  mesh->surfaces.resize(kept);
+}
+
+// Two triangles on the same corners that look against one another enclose nothing.
+void RemoveFolds(TriangleMesh* mesh) {
+  std::map<Corners, std::vector<std::pair<std::uint32_t, bool>>> by_corners;
+  std::vector<bool> is_gone(mesh->triangles.size());
+  for (std::uint32_t i = 0; i < mesh->triangles.size(); ++i) {
+    Corners c = mesh->triangles[i];
+    if (HasTwice(c)) {
+      is_gone[i] = true;
+      continue;
+    }
+    std::rotate(c.begin(), std::min_element(c.begin(), c.end()), c.end());
+    const bool is_turned = c[1] > c[2];
+    if (is_turned) std::swap(c[1], c[2]);
+    auto& at = by_corners[c];
+    const auto against = std::find_if(at.begin(), at.end(),
+                                      [&](const auto& other) { return other.second != is_turned; });
+    if (against == at.end()) {
+      at.emplace_back(i, is_turned);
+    } else {
+      is_gone[i] = is_gone[against->first] = true;
+      at.erase(against);
+    }
+  }
+  EraseMarked(is_gone, mesh);
+}
+
+// A triangle whose corners lie in a line goes; the neighbour along its longest side is divided at
+// the corner in the middle. The surface stays closed. False if there was none.
+bool RemoveOneRoundOfLines(TriangleMesh* mesh) {
+  std::vector<std::uint32_t> lines;
+  for (std::uint32_t i = 0; i < mesh->triangles.size(); ++i) {
+    if (IsLine(*mesh, mesh->triangles[i])) lines.push_back(i);
+  }
+  if (lines.empty()) return false;
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::uint32_t>> by_side;
+  for (std::uint32_t i = 0; i < mesh->triangles.size(); ++i) {
+    const Corners& t = mesh->triangles[i];
+    for (int k = 0; k < 3; ++k) by_side[{t[k], t[(k + 1) % 3]}].push_back(i);
+  }
+  std::vector<bool> is_gone(mesh->triangles.size()), is_busy(mesh->triangles.size());
+  for (const std::uint32_t line : lines) {
+    if (is_busy[line]) continue;
+    const Corners t = mesh->triangles[line];
+    int longest = 0;
+    double length = -1;
+    for (int k = 0; k < 3; ++k) {
+      const double side = (mesh->positions[t[(k + 1) % 3]] - mesh->positions[t[k]]).norm();
+      if (side > length) length = side, longest = k;
+    }
+    const std::uint32_t a = t[longest], b = t[(longest + 1) % 3], middle = t[(longest + 2) % 3];
+    for (const std::uint32_t other : by_side[{b, a}]) {
+      if (is_busy[other] || other == line) continue;
+      Corners first = mesh->triangles[other], second = first;
+      std::replace(first.begin(), first.end(), b, middle);
+      std::replace(second.begin(), second.end(), a, middle);
+      mesh->triangles[other] = first;
+      mesh->triangles[line] = second;
+      mesh->surfaces[line] = mesh->surfaces[other];
+      is_busy[other] = is_busy[line] = true;
+      break;
+    }
+  }
+  RemoveFolds(mesh);
+  return true;
+}
+
+// What follows one piece's winding over a mesh that may cross itself.
+Result<TriangleMesh> CutAgain(const TriangleMesh& mesh);
+
+bool HasCrossingAt(const TriangleMesh& mesh, const std::vector<bool>& is_rounded) {
+  Soup soup{mesh.positions, {}};
+  std::vector<bool> is_suspect;
+  for (const Corners& t : mesh.triangles) {
+    soup.facets.push_back({t, 0});
+    is_suspect.push_back(is_rounded.empty() || is_rounded[t[0]] || is_rounded[t[1]] ||
+                         is_rounded[t[2]]);
+  }
+  return HasCrossing(soup, is_suspect);
+}
+
+void CleanUp(TriangleMesh* mesh) {
+  RemoveFolds(mesh);
+  for (int round = 0; round < 100 && RemoveOneRoundOfLines(mesh); ++round) {
+  }
+}
+
+TriangleMesh MeshOf(const Arrangement& arrangement, const std::vector<SurfacePiece>& pieces,
+                    std::vector<bool>* is_rounded) {
+  TriangleMesh mesh;
+  PositionIndex index;
+  std::vector<std::uint32_t> number(arrangement.corner_count(), 0xffffffff);
+  for (const SurfacePiece& piece : pieces) {
+    Corners t;
+    for (int i = 0; i < 3; ++i) {
+      const std::uint32_t corner = piece.corners[i];
+      if (number[corner] == 0xffffffff) {
+        number[corner] = index.Of(arrangement.Rounded(corner), &mesh.positions);
+        is_rounded->resize(mesh.positions.size());
+        if (arrangement.IsRounded(corner)) (*is_rounded)[number[corner]] = true;
+      }
+      t[i] = number[corner];
+    }
+    mesh.triangles.push_back(t);
+    mesh.surfaces.push_back(piece.surface);
+  }
+  return mesh;
+}
+
+Result<TriangleMesh> CutAgain(const TriangleMesh& mesh) {
+  Soup soup{mesh.positions, {}};
+  for (const Corners& t : mesh.triangles) soup.facets.push_back({t, 0});
+  const Arrangement arrangement(std::move(soup), true);
+  const std::vector<std::uint32_t> patches = PatchesOf(arrangement);
+  std::vector<int> side(patches.size());  // 1: the inside is behind; −1: in front
+  std::vector<SurfacePiece> kept;
+  for (std::uint32_t i = 0; i < patches.size(); ++i) {
+    const Piece& piece = arrangement.pieces()[i];
+    const auto labels = arrangement.LabelsOf(piece);
+    if (patches[i] == i) {
+      const auto front = arrangement.Winding(piece, 0);
+      if (!front) return tl::unexpected(front.error());
+      int behind = *front;
+      for (const PieceLabel& label : labels) behind += label.opposite ? -1 : 1;
+      side[i] = int{behind > 0} - int{*front > 0};
+    }
+    if (side[patches[i]] == 0) continue;
+    SurfacePiece surface{piece.corners, labels[0].facet, mesh.surfaces[labels[0].facet],
+                         side[patches[i]] < 0, true};
+    if (surface.turned) std::swap(surface.corners[1], surface.corners[2]);
+    kept.push_back(surface);
+  }
+  std::vector<bool> is_rounded;
+  return MeshOf(arrangement, kept, &is_rounded);
+}
+
+}  // namespace
+
+Result<TriangleMesh> Rounded(const Arrangement& arrangement,
+                             const std::vector<SurfacePiece>& pieces) {
+  std::vector<bool> is_rounded;
+  TriangleMesh mesh = MeshOf(arrangement, pieces, &is_rounded);
+  CleanUp(&mesh);
+  for (int round = 0; HasCrossingAt(mesh, is_rounded); ++round) {
+    if (round == kMostRounds) {
+      return tl::unexpected(Error{ErrorCode::kDegenerate,
+                                  "facets so near one another that rounding makes them cross"});
+    }
+    auto again = CutAgain(mesh);
+    if (!again) return again;
+    mesh = std::move(*again);
+    CleanUp(&mesh);
+    is_rounded.clear();
+  }
+  return mesh;
+}
+
+void Append(const TriangleMesh& mesh, TriangleMesh* to) {
+  const auto first = static_cast<std::uint32_t>(to->positions.size());
+  std::uint32_t surface = 0;
+  for (const std::uint32_t s : to->surfaces) surface = std::max(surface, s + 1);
+  to->positions.insert(to->positions.end(), mesh.positions.begin(), mesh.positions.end());
+  for (const Corners& t : mesh.triangles) {
+    to->triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+  }
+  for (const std::uint32_t s : mesh.surfaces) to->surfaces.push_back(s + surface);
+}
+
+}  // namespace tranos::geom
