@@ -13,6 +13,8 @@ namespace tranos::geom {
 
 class Solid {
  public:
+  enum class Kind : std::uint8_t { kMesh, kTransformed, kUnion, kIntersection, kDifference };
+
   // A solid with this surface, which is closed and looks outward; kNotClosed if it is not,
   // kDegenerate if it encloses nothing.
   static Result<Solid> FromMesh(TriangleMesh mesh);
@@ -36,11 +38,11 @@ class Solid {
 
  private:
   explicit Solid(std::shared_ptr<const Node> node) : node_(std::move(node)) {}
+  static Solid Combined(Kind kind, std::vector<Solid> parts);
   std::shared_ptr<const Node> node_;
 };
 
 struct Solid::Node {
-  enum class Kind : std::uint8_t { kMesh, kTransformed, kUnion, kIntersection, kDifference };
   Kind kind;
   std::vector<Solid> parts = {};  // of a difference the first is what the others are cut from
   TriangleMesh mesh = {};         // of kMesh

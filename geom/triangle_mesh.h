@@ -6,13 +6,13 @@
 #include <cstdint>
 #include <vector>
 
-#include "geom/primitives.h"
+#include "geom/surface.h"
 
 namespace tranos::geom {
 
 // Triangles run anticlockwise seen from outside. `surfaces` has an entry for each triangle: the
-// number of the smooth surface (a plane, a cylinder's side, a dome) that it is a facet of; facets of
-// one surface are shaded as one, and an edge between two surfaces is a line in drawings.
+// number of the smooth surface (a plane, a cylinder's side, a dome) that it is a facet of; facets
+// of one surface are shaded as one, and an edge between two surfaces is a line in drawings.
 struct TriangleMesh {
   std::vector<Vec3> positions;
   std::vector<std::array<std::uint32_t, 3>> triangles;
@@ -24,8 +24,8 @@ struct TriangleMesh {
 bool IsClosed(const TriangleMesh&);
 // m³, positive for a mesh whose triangles look outward.
 double Volume(const TriangleMesh&);
-double Area(const TriangleMesh&);       // m²
-Vec3 Centroid(const TriangleMesh&);     // of the enclosed volume; the box's centre where that is zero
+double Area(const TriangleMesh&);    // m²
+Vec3 Centroid(const TriangleMesh&);  // of the enclosed volume; the box's centre where that is zero
 Box BoundingBox(const TriangleMesh&);
 // Handles through the surface, summed over its parts: 0 for a ball, 1 for a ring. Of meshes whose
 // edges have two triangles each.
