@@ -18,10 +18,11 @@ std::size_t RankOf(std::string_view family) { return kFamilies.find(family); }
 std::vector<Command> Collect() {
   std::vector<Command> all;
   for (const auto family :
-       {PlaceCommands(), ChooseCommands(), CreateCommands(), TransformCommands(), ArrayCommands(),
-        EditCommands(), ConstructCommands(), PlaneCommands(), ViewCommands(), OutputCommands(),
-        PhotographCommands(), TraceCommands(), CalibrateCommands(), HistoryCommands(),
-        LaterCommands()}) {
+       {PlaceCommands(), PlaceSolidCommands(), ChooseCommands(), CreateCommands(),
+        TransformCommands(), ArrayCommands(), EditCommands(), ConstructCommands(),
+        ConstructSolidCommands(), SolidBooleanCommands(), PlaneCommands(), ViewCommands(),
+        OutputCommands(), PhotographCommands(), TraceCommands(), CalibrateCommands(),
+        HistoryCommands(), LaterCommands()}) {
     all.insert(all.end(), family.begin(), family.end());
   }
   std::stable_sort(all.begin(), all.end(), [](const Command& a, const Command& b) {

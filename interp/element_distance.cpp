@@ -76,7 +76,8 @@ double FromCurve(const geom::Curve& curve, const model::Element& other) {
 }
 
 // Projecting to and fro never moves the points apart.
-double Alternate(const geom::Surface& surface, const model::Element& other, Vec3 p) {
+template <class Shape>
+double Alternate(const Shape& surface, const model::Element& other, Vec3 p) {
   double distance = model::NearestPoint(other, p).distance_m;
   for (int i = 0; i < 200; ++i) {
     p = geom::NearestPoint(surface, model::NearestPoint(other, p).point).point;
@@ -85,6 +86,27 @@ double Alternate(const geom::Surface& surface, const model::Element& other, Vec3
     distance = next;
   }
   return distance;
+}
+
+template <class Shape>
+double LeastFrom(const Shape& surface, std::vector<std::pair<double, Vec3>> samples,
+                 const model::Element& other) {
+  std::sort(samples.begin(), samples.end(),
+            [](const auto& a, const auto& b) { return a.first < b.first; });
+  double best = samples[0].first;
+  const std::size_t candidates = std::min<std::size_t>(kCandidates, samples.size());
+  for (std::size_t k = 0; k < candidates; ++k) {
+    best = std::min(best, Alternate(surface, other, samples[k].second));
+  }
+  return best;
+}
+
+double FromSolid(const geom::TriangleMesh& facets, const model::Element& other) {
+  std::vector<std::pair<double, Vec3>> samples;
+  for (const Vec3& p : facets.positions) {
+    samples.emplace_back(model::NearestPoint(other, p).distance_m, p);
+  }
+  return LeastFrom(facets, std::move(samples), other);
 }
 
 double FromSurface(const geom::Surface& surface, const model::Element& other) {
@@ -96,13 +118,7 @@ double FromSurface(const geom::Surface& surface, const model::Element& other) {
       samples.emplace_back(model::NearestPoint(other, p).distance_m, p);
     }
   }
-  std::sort(samples.begin(), samples.end(),
-            [](const auto& a, const auto& b) { return a.first < b.first; });
-  double best = samples[0].first;
-  for (int k = 0; k < kCandidates; ++k) {
-    best = std::min(best, Alternate(surface, other, samples[static_cast<std::size_t>(k)].second));
-  }
-  return best;
+  return LeastFrom(surface, std::move(samples), other);
 }
 
 std::uint64_t CountLeaves(const model::Element& element, bool* has_surface) {
@@ -110,7 +126,7 @@ std::uint64_t CountLeaves(const model::Element& element, bool* has_surface) {
   model::ForEachLeaf(
       element, [&](const model::Element& leaf, const geom::Affine&, const model::Attributes&) {
         ++leaves;
-        if (SurfaceOf(leaf)) *has_surface = true;
+        if (SurfaceOf(leaf) || SolidOf(leaf)) *has_surface = true;
       });
   return leaves;
 }
@@ -127,6 +143,8 @@ double FromEachLeaf(const model::Element& a, const model::Element& b) {
       distance = FromCurve(*curve, b);
     } else if (const geom::Surface* surface = SurfaceOf(*placed)) {
       distance = FromSurface(*surface, b);
+    } else if (const geom::Solid* solid = SolidOf(*placed)) {
+      distance = FromSolid(**solid->Facets(), b);
     } else if (const auto* text = std::get_if<model::TextPtr>(&placed->geometry)) {
       for (std::vector<Vec3>& stroke : geom::Strokes(**text)) {
         if (stroke.size() < 2) continue;

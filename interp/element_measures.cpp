@@ -41,6 +41,11 @@ const geom::Surface* SurfaceOf(const model::Element& element) {
   return surface ? surface->get() : nullptr;
 }
 
+const geom::Solid* SolidOf(const model::Element& element) {
+  const auto* solid = std::get_if<model::SolidPtr>(&element.geometry);
+  return solid ? solid->get() : nullptr;
+}
+
 double LengthOf(const model::Element& element) {
   if (const std::optional<double> length_m = model::Length(element)) return Finite(*length_m);
   throw OpFailure{Code::kWrongElement, WithArticle(model::TypeOf(element)) + " has no length"};

@@ -88,7 +88,9 @@ const std::vector<Value>& ListArgument(Arguments arguments, int index) {
 model::ElementPtr ElementArgument(const CallContext& context, Arguments arguments, int index) {
   const Value& value = arguments[static_cast<std::size_t>(index)];
   if (!value.is_element()) FailArgument(arguments, index, "an element");
-  return CurrentElement(*context.state, value.element());
+  const model::ElementPtr element = CurrentElement(*context.state, value.element());
+  context.evaluate(*element);
+  return element;
 }
 
 std::vector<Value> Progression(const CallContext& context, double from, double step, double count,

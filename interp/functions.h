@@ -17,7 +17,8 @@ struct CallContext {
   const model::State* state;
   // Calls a function value.
   std::function<model::Value(const model::Value& closure, std::span<const model::Value>)> call;
-  std::function<void(std::uint64_t)> charge_items;  // list elements made
+  std::function<void(std::uint64_t)> charge_items;      // list elements made
+  std::function<void(const model::Element&)> evaluate;  // its solids, before anything is measured
 };
 
 struct Builtin {

@@ -66,6 +66,7 @@ StageLinks Machine::LinksFor(bool is_script) {
           },
           &sources_,
           photographs_.get(),
+          &solids_,
           unsolved_ ? &trail_ : nullptr,
           stages_made_++,
           &turns_,
@@ -79,6 +80,7 @@ Outcome Machine::Run() {
   Registers registers(program_.units[0].registers);
   try {
     Execute(0, registers.data(), 0, &stage);
+    EvaluateSolids(stage.state().model);
   } catch (RunFailure& failure) {
     outcome_.diagnostics.Add(std::move(failure.diagnostic));
   } catch (const std::bad_alloc&) {
@@ -93,6 +95,15 @@ Outcome Machine::Run() {
   outcome_.steps = options_.limits.steps - budget_.steps_left;
   for (const auto& [name, reg] : program_.lets) outcome_.lets.emplace_back(name, registers[reg]);
   return std::move(outcome_);
+}
+
+// Before anything is written: what fails is told of the statement that made it.
+void Machine::EvaluateSolids(const model::Model& last) const {
+  const auto force = [&](const model::ElementPtr& element) { solids_.Force(*element, {}); };
+  for (const model::OutputRequest& output : outcome_.outputs) {
+    std::visit([&](const auto& request) { request.model.ForEach(force); }, output);
+  }
+  last.ForEach(force);
 }
 
 // What is said before `calibrate` is said once, with the solved values.
@@ -130,7 +141,8 @@ CallContext Machine::ContextOf(const Instruction& i, Span span) {
           [this, span](std::uint64_t items) {
             budget_.ChargeBytes(items * sizeof(Value), span);
             budget_.ChargeSteps(items, span);
-          }};
+          },
+          [this, span](const model::Element& element) { solids_.Force(element, span); }};
 }
 
 Value Machine::Execute(std::uint32_t unit_id, Value* r, std::uint32_t from, Stage* stage) {

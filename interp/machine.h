@@ -11,6 +11,7 @@
 #include "camera/estimate.h"
 #include "interp/functions.h"
 #include "interp/run.h"
+#include "interp/solid_ledger.h"
 #include "interp/stage.h"
 #include "interp/traced.h"
 
@@ -107,6 +108,7 @@ class Machine {
   void Print(std::string_view line);
   void PrintHeld();
 
+  void EvaluateSolids(const model::Model& last) const;
   CallContext ContextOf(const Instruction& i, Span span);
   StageLinks LinksFor(bool is_script);
   [[noreturn]] void Throw(const OpFailure& failure, Span span, const CodeUnit* unit,
@@ -132,6 +134,7 @@ class Machine {
   std::vector<Solvable> solvables_;  // what can be solved for, as it was met
   std::uint64_t stages_made_ = 0;
   std::shared_ptr<PhotographFiles> photographs_ = std::make_shared<PhotographFiles>();
+  SolidLedger solids_;
   int call_depth_ = 0;
   int definition_depth_ = 0;
   Stage* stage_ = nullptr;  // of the code that runs

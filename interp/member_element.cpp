@@ -48,12 +48,13 @@ using Reader = Value (*)(const Element&);
 struct Row {
   std::string_view name;
   Reader read;
+  bool measures_solids = false;
 };
 constexpr Row kMeasures[] = {
     {"length", [](const Element& e) { return Length(LengthOf(e)); }},
-    {"area", [](const Element& e) { return Value::Number(AreaOf(e), model::kArea); }},
-    {"volume", [](const Element& e) { return Value::Number(VolumeOf(e), model::kVolume); }},
-    {"bbox", BoxValue},
+    {"area", [](const Element& e) { return Value::Number(AreaOf(e), model::kArea); }, true},
+    {"volume", [](const Element& e) { return Value::Number(VolumeOf(e), model::kVolume); }, true},
+    {"bbox", BoxValue, true},
     {"name", [](const Element& e) { return Value::String(std::string(e.name_or_empty())); }},
     {"type", [](const Element& e) { return Value::String(model::TypeOf(e)); }},
     {"level", [](const Element& e) { return Value::String(e.attributes->level); }},
@@ -116,6 +117,24 @@ std::vector<std::string> CurveMembers(const geom::Curve& curve) {
   if (std::holds_alternative<geom::Line>(curve)) names.emplace_back("direction");
   if (std::holds_alternative<geom::Polyline>(curve)) names.emplace_back("vertices");
   return names;
+}
+
+// What is measured on a solid's facets; nothing where it has no such member.
+std::optional<Value> SolidMember(const CallContext& context, const Element& element,
+                                 std::string_view name) {
+  constexpr std::string_view kNames[] = {"centroid", "closed", "genus", "faces", "shells"};
+  if (std::find(std::begin(kNames), std::end(kNames), name) == std::end(kNames))
+    return std::nullopt;
+  context.evaluate(element);
+  const geom::TriangleMesh& facets = **SolidOf(element)->Facets();
+  if (name == "centroid") return Value::OfPoint(geom::Centroid(facets));
+  if (name == "closed") return Value::Boolean(geom::IsClosed(facets));
+  if (name == "genus") return Value::Number(geom::Genus(facets));
+  if (name == "shells") return Value::Number(geom::ShellCount(facets));
+  std::vector<std::uint32_t> surfaces = facets.surfaces;
+  std::sort(surfaces.begin(), surfaces.end());
+  const auto end = std::unique(surfaces.begin(), surfaces.end());
+  return Value::Number(static_cast<double>(end - surfaces.begin()));
 }
 
 // A part as it is seen through its placement. It stands in no model by itself, so it has no id.
@@ -250,6 +269,7 @@ std::optional<Value> OwnMember(const CallContext& context, const Element& elemen
     return PlaceMember(point->position, name);
   }
   if (const geom::Curve* curve = CurveOf(element)) return CurveMember(context, *curve, name);
+  if (SolidOf(element)) return SolidMember(context, element, name);
   if (const auto* text = std::get_if<model::TextPtr>(&element.geometry)) {
     if (name == "text") return Value::String((*text)->content);
     if (name == "height") return Length((*text)->height_m);
@@ -275,6 +295,7 @@ std::vector<std::string> OwnMembers(const Element& element) {
   if (std::holds_alternative<model::Point>(element.geometry)) return {"position", "x", "y", "z"};
   if (const geom::Curve* curve = CurveOf(element)) return CurveMembers(*curve);
   if (SurfaceOf(element)) return {"point(u, v)", "normal(u, v)"};
+  if (SolidOf(element)) return {"centroid", "closed", "genus", "faces", "shells"};
   if (std::holds_alternative<model::TextPtr>(element.geometry)) {
     return {"text", "height", "plane", "position", "x", "y", "z"};
   }
@@ -330,7 +351,9 @@ Value ElementMember(const CallContext& context, const ElementPtr& named, std::st
   const ElementPtr element = CurrentElement(*context.state, named);
   if (std::optional<Value> own = OwnMember(context, *element, name)) return *std::move(own);
   for (const Row& row : kMeasures) {
-    if (row.name == name) return row.read(*element);
+    if (row.name != name) continue;
+    if (row.measures_solids) context.evaluate(*element);
+    return row.read(*element);
   }
   FailMember(WithArticle(model::TypeOf(*element)), name, MembersOf(*element));
 }

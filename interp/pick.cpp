@@ -107,6 +107,7 @@ bool IsComposite(const Element& element) {
 // The order in which kinds win where several are equally near.
 int RankOf(const Element& leaf) {
   if (std::holds_alternative<model::Point>(leaf.geometry)) return 0;
+  if (std::holds_alternative<model::SolidPtr>(leaf.geometry)) return 3;
   return std::holds_alternative<model::SurfacePtr>(leaf.geometry) ? 2 : 1;
 }
 

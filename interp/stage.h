@@ -15,6 +15,7 @@
 #include "interp/arithmetic.h"
 #include "interp/failure.h"
 #include "interp/run.h"
+#include "interp/solid_ledger.h"
 #include "model/edit.h"
 
 namespace tranos::interp {
@@ -67,6 +68,7 @@ struct StageLinks {
   std::function<Fired(const Answers&, const model::State&, Span)> calibrate;
   const SourceList* sources;
   PhotographFiles* photographs;
+  SolidLedger* solids;
   Trail* trail;          // null where nothing is solved for
   std::uint64_t serial;  // tells the stages of a run apart
   const std::vector<std::uint32_t>* turns;

@@ -188,6 +188,8 @@ void Stage::Fire(Span span) {
   }
   Fired fired = Execute(row, answers, span);
   GuardChanges(&fired.edit);
+  links_.solids->Note(fired.edit.added, active_.span);
+  links_.solids->Note(fired.edit.replaced, active_.span);
   for (const CommandError& warning : fired.warnings)
     links_.diagnostics->Add(MakeDiagnostic(warning));
   for (const std::string& line : fired.messages) {

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <unordered_map>
 
+#include "model/solid_hash.h"
+
 namespace tranos::model {
 
 namespace {
@@ -27,6 +29,7 @@ enum Tag : std::uint8_t {
   kOwn,
   kPhotograph,
   kTrace,
+  kSolid,
 };
 
 void AddCount(Hasher& hasher, std::size_t count) {
@@ -97,6 +100,7 @@ void Add(Hasher& hasher, const CurvePtr& curve) {
 void Add(Hasher& hasher, const SurfacePtr& surface) {
   std::visit([&](const auto& shape) { Add(hasher, shape); }, *surface);
 }
+void Add(Hasher& hasher, const SolidPtr& solid) { hasher.Tag(kSolid).Hash(HashOf(*solid)); }
 void Add(Hasher& hasher, const TextPtr& text) {
   hasher.Tag(kText).Text(text->content).Length(text->height_m);
   AddFrame(hasher, text->frame);
@@ -249,6 +253,7 @@ std::string TypeOf(const Element& element) {
     std::string operator()(const geom::BsplineCurve&) const { return "curve"; }
     std::string operator()(const geom::Chain&) const { return "chain"; }
     std::string operator()(const SurfacePtr&) const { return "surface"; }
+    std::string operator()(const SolidPtr&) const { return "solid"; }
     std::string operator()(const TextPtr&) const { return "text"; }
     std::string operator()(const GroupPtr&) const { return "group"; }
     std::string operator()(const InstancePtr& instance) const { return instance->prototype->words; }

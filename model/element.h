@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "geom/curve.h"
+#include "geom/solid.h"
 #include "geom/stroke_font.h"
 #include "geom/surface.h"
 #include "model/hash.h"
@@ -128,11 +129,12 @@ struct Point {
 };
 using CurvePtr = std::shared_ptr<const geom::Curve>;
 using SurfacePtr = std::shared_ptr<const geom::Surface>;
+using SolidPtr = std::shared_ptr<const geom::Solid>;
 using TextPtr = std::shared_ptr<const geom::Text>;
 using InstancePtr = std::shared_ptr<const Instance>;
 using PhotographPtr = std::shared_ptr<const Photograph>;
 using TracePtr = std::shared_ptr<const Trace>;
-using Geometry = std::variant<Point, CurvePtr, SurfacePtr, TextPtr, GroupPtr, InstancePtr,
+using Geometry = std::variant<Point, CurvePtr, SurfacePtr, SolidPtr, TextPtr, GroupPtr, InstancePtr,
                               PhotographPtr, TracePtr>;
 
 struct Element {
@@ -165,13 +167,14 @@ bool IsBuilt(const Element& element);
 // no parts.
 int DepthOf(const Element& element);
 
-// "point", "line", "arc", "circle", "line string", "shape", "curve", "chain", "surface", "text",
-// "group", "photograph", "camera", "trace edge" …, or an instance's words.
+// "point", "line", "arc", "circle", "line string", "shape", "curve", "chain", "surface", "solid",
+// "text", "group", "photograph", "camera", "trace edge" …, or an instance's words.
 std::string TypeOf(const Element& element);
 
 // Measures. Nothing where the element has none of the kind: a point has no length, an open curve
 // no area, a surface no length. Groups and instances sum their parts'; the area is that of faces
-// and of closed planar curves.
+// and of closed planar curves. Measuring evaluates a solid, but for its box, which is around all
+// that it could fill until somebody has evaluated it.
 geom::Box BoundingBox(const Element& element);
 std::optional<double> Length(const Element& element);
 std::optional<double> Area(const Element& element);

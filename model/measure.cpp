@@ -40,25 +40,36 @@ geom::Box BoxOf(const Shape& shape, const geom::Affine& world_from_shape) {
   }
   return geom::BoundingBox(geom::Transformed(shape, world_from_shape));
 }
+// A solid's is of its facets once there are any, and around them before.
+geom::Box BoxOf(const geom::Solid& solid, const geom::Affine& world_from_shape) {
+  if (MapsAxesToAxes(world_from_shape)) return Mapped(solid.Bounds(), world_from_shape);
+  if (!solid.node().facets) return solid.Transformed(world_from_shape).Bounds();
+  geom::Box box;
+  for (const geom::Vec3& p : solid.node().facets->positions) box.Add(world_from_shape * p);
+  return box;
+}
 geom::Box BoxOf(const Point& point, const geom::Affine& world_from_shape) {
   geom::Box box;
   box.Add(world_from_shape * point.position);
   return box;
 }
 
-// Calls f(shape, world_from_shape) for the shape of every leaf: a point, a curve, a surface or a
-// text.
+// Calls f(shape, world_from_shape) for the shape of every leaf: a point, a curve, a surface, a
+// solid or a text.
 template <class F>
 void ForEachShape(const Element& element, const F& f) {
   ForEachLeaf(element, [&](const Element& leaf, const geom::Affine& world, const Attributes&) {
     if (const auto* point = std::get_if<Point>(&leaf.geometry)) f(*point, world, leaf);
     if (const auto* curve = std::get_if<CurvePtr>(&leaf.geometry)) f(**curve, world, leaf);
     if (const auto* surface = std::get_if<SurfacePtr>(&leaf.geometry)) f(**surface, world, leaf);
+    if (const auto* solid = std::get_if<SolidPtr>(&leaf.geometry)) f(**solid, world, leaf);
     if (const auto* text = std::get_if<TextPtr>(&leaf.geometry)) f(**text, world, leaf);
   });
 }
 
-void AddTo(std::optional<double>& sum, double measure) { sum = sum.value_or(0) + measure; }
+void AddTo(std::optional<double>& sum, std::optional<double> measure) {
+  if (measure) sum = sum.value_or(0) + *measure;
+}
 
 // measure(shape) in the world, where it grows with the power-th power of the scale.
 template <class Shape, class Measure>
@@ -80,6 +91,22 @@ double EnclosedVolume(const geom::Mesh& mesh) {
   return std::abs(sixfold) / 6;
 }
 
+std::optional<double> AreaInWorld(const geom::Solid& solid, const geom::Affine& world_from_solid) {
+  const auto facets = solid.Facets();
+  if (!facets) return std::nullopt;
+  if (const std::optional<double> scale = ScaleOf(world_from_solid)) {
+    return *scale * *scale * geom::Area(**facets);
+  }
+  geom::TriangleMesh mesh = **facets;
+  for (geom::Vec3& p : mesh.positions) p = world_from_solid * p;
+  return geom::Area(mesh);
+}
+
+geom::Nearest NearestTo(const geom::Solid& solid, const geom::Vec3& p) {
+  const auto facets = solid.Facets();
+  if (facets) return geom::NearestPoint(**facets, p);
+  return {p, std::numeric_limits<double>::infinity(), 0};
+}
 geom::Nearest NearestTo(const Point& point, const geom::Vec3& p) {
   return {point.position, (point.position - p).norm(), 0};
 }
@@ -100,6 +127,9 @@ geom::Nearest NearestTo(const geom::Text& text, const geom::Vec3& p) {
 
 Point TransformedShape(const Point& point, const geom::Affine& world_from_shape) {
   return {world_from_shape * point.position};
+}
+geom::Solid TransformedShape(const geom::Solid& solid, const geom::Affine& world_from_shape) {
+  return solid.Transformed(world_from_shape);
 }
 template <class Shape>
 Shape TransformedShape(const Shape& shape, const geom::Affine& world_from_shape) {
@@ -153,6 +183,8 @@ std::optional<double> Area(const Element& element) {
                    AddTo(sum, MeasureInWorld(shape, world, 2, [](const geom::Curve& curve) {
                            return geom::EnclosedArea(curve).value_or(0);
                          }));
+                 } else if constexpr (std::is_same_v<Shape, geom::Solid>) {
+                   AddTo(sum, AreaInWorld(shape, world));
                  }
                });
   return sum;
@@ -167,6 +199,10 @@ std::optional<double> Volume(const Element& element) {
       const geom::Result<geom::Mesh> mesh = geom::Tessellate(shape, leaf.tolerance);
       if (!mesh) return;
       AddTo(sum, std::abs(world.linear().determinant()) * EnclosedVolume(*mesh));
+    } else if constexpr (std::is_same_v<Shape, geom::Solid>) {
+      const auto facets = shape.Facets();
+      if (!facets) return;
+      AddTo(sum, std::abs(world.linear().determinant()) * geom::Volume(**facets));
     }
   });
   return sum;

@@ -59,6 +59,13 @@ struct FacetMaker {
     facets.mesh = *std::move(mesh);
     return facets;
   }
+  geom::Result<Facets> operator()(const model::SolidPtr& solid) const {
+    const auto mesh = solid->Facets();
+    if (!mesh) return tl::unexpected(mesh.error());
+    Facets facets;
+    facets.mesh = geom::FacetsOf(**mesh);
+    return facets;
+  }
   geom::Result<Facets> operator()(const model::TextPtr& text) const {
     Facets facets;
     facets.strokes = geom::Strokes(*text);

@@ -144,8 +144,9 @@ std::optional<Error> CompletePart(Part& part, double pixel_m, model::RenderMode 
   part.feature_lines = LinesAlong(FeatureEdges(part.edges), mesh);
   if (tolerance.facets_per_turn > 0) {
     part.form_lines = LinesAlong(FacetEdges(mesh, part.edges), mesh);
-  } else if (!IsFlat(mesh)) {
-    part.form_lines = IsoLines(*std::get<model::SurfacePtr>(part.element->geometry));
+  } else if (const auto* surface = std::get_if<model::SurfacePtr>(&part.element->geometry);
+             surface && !IsFlat(mesh)) {
+    part.form_lines = IsoLines(**surface);
   }
   return std::nullopt;
 }

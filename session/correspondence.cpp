@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/solid_hash.h"
+
 namespace tranos::session {
 
 namespace {
@@ -33,6 +35,7 @@ class Skeleton {
   void Part(const model::SurfacePtr& surface) {
     std::visit([this](const auto& shape) { Part(shape); }, *surface);
   }
+  void Part(const model::SolidPtr& solid) { Add(*solid); }
   void Part(const model::TextPtr& text) {
     hasher_.Text(text->content).Length(text->height_m);
     Frame(text->frame, 1);
@@ -90,6 +93,33 @@ class Skeleton {
   }
   void Part(const geom::CoonsPatch& patch) {
     for (const auto* side : {&patch.south, &patch.north, &patch.west, &patch.east}) Part(*side);
+  }
+  // Its meshes, each moved to where it stands; what is made of more than so many is told by its
+  // content alone.
+  void Add(const geom::Solid& solid) {
+    constexpr int kMostNodes = 10'000;
+    struct Placed {
+      const geom::Solid* solid;
+      geom::Affine world_from_solid;
+    };
+    std::vector<Placed> open = {{&solid, geom::Affine::Identity()}};
+    for (int nodes = 0; !open.empty(); ++nodes) {
+      if (nodes == kMostNodes) {
+        hasher_.Hash(model::HashOf(solid));
+        return;
+      }
+      const Placed next = open.back();
+      open.pop_back();
+      const geom::Solid::Node& node = next.solid->node();
+      if (node.kind != geom::Solid::Kind::kTransformed) {
+        hasher_.Tag(static_cast<std::uint8_t>(node.kind));
+        hasher_.Integer(static_cast<std::int64_t>(node.mesh.triangles.size()));
+      }
+      for (const Vec3& p : node.mesh.positions) points_.push_back(next.world_from_solid * p);
+      for (const geom::Solid& part : node.parts) {
+        open.push_back({&part, next.world_from_solid * node.target_from_source});
+      }
+    }
   }
   void Frame(const geom::Frame& frame, double size) {
     points_.push_back(frame.origin);
@@ -184,6 +214,13 @@ double SurfaceDistance(const geom::Surface& a, const geom::Surface& b) {
   return largest;
 }
 
+// Of solids with the same facets.
+std::optional<double> SolidDistance(const geom::Solid& a, const geom::Solid& b) {
+  const auto p = a.Facets(), q = b.Facets();
+  if (!p || !q || (*p)->triangles != (*q)->triangles) return std::nullopt;
+  return Largest((*p)->positions, (*q)->positions);
+}
+
 double TextDistance(const geom::Text& a, const geom::Text& b) {
   const auto corner = [](const geom::Text& text, double x, double y) {
     return Vec3(text.frame.origin + text.height_m * (x * text.frame.x + y * text.frame.y));
@@ -203,6 +240,8 @@ std::optional<double> LeafDistance(const model::Geometry& a, const model::Geomet
     return CurveDistance(**p, *std::get<model::CurvePtr>(b));
   if (const auto* p = std::get_if<model::SurfacePtr>(&a))
     return SurfaceDistance(**p, *std::get<model::SurfacePtr>(b));
+  if (const auto* p = std::get_if<model::SolidPtr>(&a))
+    return SolidDistance(**p, *std::get<model::SolidPtr>(b));
   if (const auto* p = std::get_if<model::TextPtr>(&a))
     return TextDistance(**p, *std::get<model::TextPtr>(b));
   return std::nullopt;

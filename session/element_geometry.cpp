@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "session/element_geometry.h"
 
+#include "model/solid_hash.h"
+
 namespace tranos::session {
 
 namespace {
@@ -30,6 +32,10 @@ class GeometryWriter {
   void operator()(const model::Point& point) { out_->Key("at").Point(point.position); }
   void operator()(const model::CurvePtr& curve) { std::visit(*this, *curve); }
   void operator()(const model::SurfacePtr& surface) { std::visit(*this, *surface); }
+  // A solid is made in as many steps as the journal has told: what it is now is its hash.
+  void operator()(const model::SolidPtr& solid) {
+    out_->Key("content").String(model::Hex(model::HashOf(*solid)));
+  }
   void operator()(const model::TextPtr& text) {
     out_->Key("text").String(text->content).Key("height").Length(text->height_m);
     Frame(text->frame, out_);

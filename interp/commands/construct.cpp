@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "interp/commands/construction.h"
 #include "interp/commands/families.h"
 #include "interp/commands/firing.h"
 
@@ -45,62 +46,20 @@ CommandResult FromEach(const State& state, const Answers& answers, std::string_v
   return MakeFromChosen(state, answers, std::move(surfaces));
 }
 
-// from= and to=, or direction= with its own length or that of height=, or height= alone.
-tl::expected<Vec3, CommandError> ProjectionVector(const State& state, const Answers& answers) {
-  const auto from = answers.Point("from"), to = answers.Point("to"),
-             direction = answers.Point("direction");
-  const bool by_points = from || to, by_direction = direction || answers.Has("height");
-  if (by_points && by_direction) {
-    return Fail({.code = Code::kWrongWords,
-                 .message = "a projection goes either from a point to a point, or in a direction",
-                 .where = {Where::kKey, 0, direction ? "direction" : "height"}});
-  }
-  if (by_points ? !(from && to) : !by_direction) {
-    return Fail({.code = Code::kMissingValue,
-                 .message = "how far does the projection go?",
-                 .help = "give `height=`, `direction=`, or `from=` and `to=`"});
-  }
-  if (by_points) return *to - *from;
-  if (!direction) return answers.Number("height") * state.drawing.settings->plane.z();
-  if (!answers.Has("height") || direction->norm() <= geom::kCoincident_m) return *direction;
-  return answers.Number("height") * direction->normalized();
-}
-
 CommandResult Projection(const State& state, const Answers& answers) {
   if (auto error = TooFar(answers)) return Fail(*error);
   const auto vector = ProjectionVector(state, answers);
   if (!vector) return Fail(vector.error());
-  if (vector->norm() <= geom::kCoincident_m) {
-    return Fail({.code = Code::kDegenerate, .message = "a projection of no length"});
-  }
   return FromEach(state, answers, "a projection",
                   [&](const geom::Curve& curve) { return geom::Extrusion(curve, *vector); });
 }
 
 CommandResult Revolution(const State& state, const Answers& answers) {
   if (auto error = TooFar(answers)) return Fail(*error);
-  const auto from = answers.Point("from"), to = answers.Point("to");
-  if (!from || !to) {
-    return Fail({.code = Code::kMissingValue,
-                 .message = "a revolution needs its axis",
-                 .help = "give two points of it: `from=` and `to=`"});
-  }
-  if ((*to - *from).norm() <= geom::kCoincident_m) {
-    return Fail({.code = Code::kDegenerate,
-                 .message = "an axis of no length",
-                 .where = {Where::kKey, 0, "to"}});
-  }
-  const double angle_rad = answers.Number("angle", 2 * geom::kPi);
-  if (std::abs(angle_rad) > 2 * geom::kPi + 1e-12 || std::abs(angle_rad) <= 1e-12) {
-    return Fail({.code = Code::kOutOfRange,
-                 .message = "a revolution turns more than 0 and at most 360 degrees",
-                 .where = {Where::kKey, 0, "angle"}});
-  }
-  // Turning backwards about an axis is turning forwards about the axis reversed.
-  const Vec3 axis = (angle_rad < 0 ? *from - *to : *to - *from).normalized();
-  const double turn_rad = std::min(std::abs(angle_rad), 2 * geom::kPi);
+  const auto turn = TurnOf(answers);
+  if (!turn) return Fail(turn.error());
   return FromEach(state, answers, "a revolution", [&](const geom::Curve& curve) {
-    return geom::Revolution(curve, *from, axis, turn_rad);
+    return geom::Revolution(curve, turn->point, turn->axis, turn->angle_rad);
   });
 }
 
@@ -122,22 +81,6 @@ constexpr Prompt kProfilePrompts[] = {{"profile, or a point off everything to ac
 constexpr Prompt kRailPrompts[] = {{"curve, or a point off everything to accept"}};
 
 constexpr Key kEdgeKeys[] = {kOf, kKeep};
-constexpr Key kProjectionKeys[] = {
-    kOf,
-    kKeep,
-    {"from", Type::kPoint, "start of the projection"},
-    {"to", Type::kPoint, "its end"},
-    {"direction", Type::kPoint, "its direction, and its length unless `height=` gives that"},
-    {"height", Type::kLength,
-     "its length, along the active plane's normal unless `direction=` says "
-     "otherwise"}};
-constexpr Key kRevolutionKeys[] = {
-    kOf,
-    kKeep,
-    {"from", Type::kPoint, "a point of the axis", {}, {}, -1, true},
-    {"to", Type::kPoint, "another point of the axis", {}, {}, -1, true},
-    {"angle", Type::kAngle, "how far to turn, anticlockwise seen from `to`", {}, "360deg"}};
-
 constexpr Example kEdgeExamples[] = {
     {"place line xy=0,0,0 dl=4 dl=0,4 dl=-4,-4 as sides\n"
      "construct surface edge of=sides keep=true; choose all; move xy=0,0,0 dl=0",

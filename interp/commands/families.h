@@ -9,12 +9,15 @@
 namespace tranos::interp {
 
 std::span<const Command> PlaceCommands();
+std::span<const Command> PlaceSolidCommands();
 std::span<const Command> ChooseCommands();
 std::span<const Command> CreateCommands();
 std::span<const Command> TransformCommands();  // copy, move, rotate, mirror, scale
 std::span<const Command> ArrayCommands();
-std::span<const Command> EditCommands();  // delete, drop, modify
-std::span<const Command> ConstructCommands();
+std::span<const Command> EditCommands();       // delete, drop, modify
+std::span<const Command> ConstructCommands();  // surfaces
+std::span<const Command> ConstructSolidCommands();
+std::span<const Command> SolidBooleanCommands();
 std::span<const Command> PlaneCommands();
 std::span<const Command> ViewCommands();        // set view, view, level
 std::span<const Command> OutputCommands();      // render, export, print

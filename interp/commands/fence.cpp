@@ -30,13 +30,10 @@ class Outliner {
     if (geom::IsClosed(*curve)) Add(points->back(), points->front());
   }
   void operator()(const model::SurfacePtr& surface) const {
-    const auto mesh = geom::Tessellate(*surface, tolerance_);
-    if (!mesh) return;
-    for (const auto& [a, b, c] : mesh->triangles) {
-      Add(mesh->positions[a], mesh->positions[b]);
-      Add(mesh->positions[b], mesh->positions[c]);
-      Add(mesh->positions[c], mesh->positions[a]);
-    }
+    if (const auto mesh = geom::Tessellate(*surface, tolerance_)) AddTriangles(*mesh);
+  }
+  void operator()(const model::SolidPtr& solid) const {
+    if (const auto mesh = solid->Facets()) AddTriangles(**mesh);
   }
   void operator()(const model::TextPtr& text) const {
     for (const std::vector<Vec3>& stroke : geom::Strokes(*text)) AddRun(stroke);
@@ -49,6 +46,14 @@ class Outliner {
  private:
   Vec2 Seen(const Vec3& p) const { return plane_.ToLocal(world_from_leaf_ * p).head<2>(); }
   void Add(const Vec3& a, const Vec3& b) const { out_->pieces.emplace_back(Seen(a), Seen(b)); }
+  template <class Mesh>
+  void AddTriangles(const Mesh& mesh) const {
+    for (const auto& [a, b, c] : mesh.triangles) {
+      Add(mesh.positions[a], mesh.positions[b]);
+      Add(mesh.positions[b], mesh.positions[c]);
+      Add(mesh.positions[c], mesh.positions[a]);
+    }
+  }
   void AddRun(const std::vector<Vec3>& points) const {
     for (std::size_t i = 1; i < points.size(); ++i) Add(points[i - 1], points[i]);
   }

@@ -68,6 +68,19 @@ std::optional<CommandError> TooFar(const Answers& answers) {
   return std::nullopt;
 }
 
+geom::Frame PlaneAt(const State& state, const geom::Vec3& origin) {
+  const geom::Frame& plane = state.drawing.settings->plane;
+  return {origin, plane.x, plane.y};
+}
+
+CommandError OffPlane(const State& state, double height_m, int point) {
+  return {.code = Code::kNotPlanar,
+          .message = fmt::format("this point lies {} off the active plane through the first one",
+                                 InWords(std::abs(height_m), *state.drawing.settings)),
+          .help = "`set plane front` draws upright; see `tranos help set plane`",
+          .where = AtPoint(point)};
+}
+
 std::optional<CommandError> NothingChosen(const Answers& answers) {
   if (!answers.chosen.empty()) return std::nullopt;
   return CommandError{.code = Code::kNothingChosen,

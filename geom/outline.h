@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Closed curves of one plane as the facets of the face between them. Internal to geom.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "geom/curve.h"
+
+namespace tranos::geom {
+
+// `triangles` fill the face, anticlockwise about the plane's normal; `sides` are its border, the
+// face to their left. Sides of one smooth run have one surface number.
+struct Outline {
+  struct Side {
+    std::uint32_t from, to, surface;
+  };
+  Frame plane;
+  std::vector<Vec3> points;  // in the world
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  std::vector<Side> sides;
+  std::uint32_t surface_count = 0;
+};
+
+// A point of the outlines may lie this far off the plane of the first.
+inline constexpr double kOffPlane_m = 1e-6;
+
+// Curves inside others are holes, and islands in those. Errors name the curve by its index:
+// kNotClosed, kNotPlanar, kDegenerate where they cross or touch along a side.
+Result<Outline> OutlineOf(const std::vector<Curve>& loops, const Tolerance&);
+
+}  // namespace tranos::geom

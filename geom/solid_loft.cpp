@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <cmath>
+
+#include "geom/faceted_curve.h"
+#include "geom/skin.h"
+#include "geom/swept_solid.h"
+#include "geom/triangulate.h"
+
+namespace tranos::geom {
+namespace {
+
+constexpr int kSamples = 64;         // at which it is seen how near two loops are
+constexpr double kSameShare = 1e-9;  // shares of a length that are one
+
+// A closed polygon by shares of its length.
+class Loop {
+ public:
+  explicit Loop(const FacetedCurve& curve) {
+    for (const FacetCorner& corner : curve.corners) {
+      points_.push_back(corner.point);
+      smooth_.push_back(corner.IsSmooth());
+    }
+    Measure();
+  }
+
+  std::size_t size() const { return points_.size(); }
+  const std::vector<Vec3>& points() const { return points_; }
+  const std::vector<double>& shares() const { return shares_; }
+  bool IsSmoothAt(std::size_t i) const { return smooth_[i]; }
+  Vec3 Middle() const {
+    Vec3 sum = Vec3::Zero();
+    for (int i = 0; i < kSamples; ++i) sum += At(double{1} * i / kSamples);
+    return sum / kSamples;
+  }
+  // Twice the vector area: along the normal about which the loop runs anticlockwise.
+  Vec3 DoubledArea() const {
+    Vec3 sum = Vec3::Zero();
+    for (std::size_t i = 0; i < size(); ++i) {
+      sum += (points_[i] - points_[0]).cross(points_[(i + 1) % size()] - points_[0]);
+    }
+    return sum;
+  }
+  Vec3 At(double share) const {
+    const double wrapped = share - std::floor(share);
+    const auto next = std::upper_bound(shares_.begin(), shares_.end(), wrapped);
+    const auto i = static_cast<std::size_t>(next - shares_.begin()) - 1;
+    const double end = next == shares_.end() ? 1 : *next;
+    const double part = end > shares_[i] ? (wrapped - shares_[i]) / (end - shares_[i]) : 0;
+    if (part == 0) return points_[i];
+    return points_[i] + part * (points_[(i + 1) % size()] - points_[i]);
+  }
+  void Reverse() {
+    std::reverse(points_.begin() + 1, points_.end());
+    std::reverse(smooth_.begin() + 1, smooth_.end());
+    Measure();
+  }
+  void StartAt(std::size_t i) {
+    const auto by = static_cast<std::ptrdiff_t>(i);
+    std::rotate(points_.begin(), points_.begin() + by, points_.end());
+    std::rotate(smooth_.begin(), smooth_.begin() + by, smooth_.end());
+    Measure();
+  }
+  // The corner to start from for lying nearest to `other`, each seen from its middle.
+  std::size_t StartNearest(const Loop& other) const {
+    const Vec3 shift = Middle() - other.Middle();
+    std::size_t best = 0;
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < size(); ++i) {
+      double sum = 0;
+      for (int k = 0; k < kSamples; ++k) {
+        const double share = double{1} * k / kSamples;
+        sum += (At(shares_[i] + share) - shift - other.At(share)).squaredNorm();
+      }
+      // A start within rounding of an earlier one is no better.
+      if (sum < least * (1 - 1e-9) - 1e-18) least = sum, best = i;
+    }
+    return best;
+  }
+  // The loop with corners at these shares.
+  void Resample(const std::vector<double>& shares) {
+    std::vector<Vec3> points;
+    std::vector<bool> smooth;
+    for (const double share : shares) {
+      points.push_back(At(share));
+      const auto same = std::find_if(shares_.begin(), shares_.end(), [&](double own) {
+        return std::abs(own - share) <= kSameShare;
+      });
+      smooth.push_back(same == shares_.end() ||
+                       smooth_[static_cast<std::size_t>(same - shares_.begin())]);
+    }
+    points_ = std::move(points), smooth_ = std::move(smooth), shares_ = shares;
+  }
+
+ private:
+  void Measure() {
+    shares_.assign(1, 0);
+    for (std::size_t i = 1; i <= size(); ++i) {
+      shares_.push_back(shares_.back() + (points_[i % size()] - points_[i - 1]).norm());
+    }
+    const double whole = shares_.back();
+    shares_.pop_back();
+    for (double& share : shares_) share /= whole;
+  }
+
+  std::vector<Vec3> points_;
+  std::vector<bool> smooth_;
+  std::vector<double> shares_;  // where each point is, from 0 up to 1
+};
+
+std::vector<double> UnitedShares(const std::vector<Loop>& loops) {
+  std::vector<double> all;
+  for (const Loop& loop : loops) all.insert(all.end(), loop.shares().begin(), loop.shares().end());
+  std::sort(all.begin(), all.end());
+  std::vector<double> shares;
+  for (const double share : all) {
+    const bool again = !shares.empty() && share - shares.back() <= kSameShare;
+    if (!again && share < 1 - kSameShare) shares.push_back(share);
+  }
+  return shares;
+}
+
+using Triangles = std::vector<std::array<std::uint32_t, 3>>;
+Result<Triangles> CapOf(const Loop& loop) {
+  const Vec3 z = loop.DoubledArea().normalized();
+  const Vec3 x = z.unitOrthogonal(), y = z.cross(x);
+  std::vector<Vec2> flat;
+  for (const Vec3& p : loop.points()) {
+    const Vec3 d = p - loop.points()[0];
+    flat.emplace_back(d.dot(x), d.dot(y));
+  }
+  return TriangulatePolygon({flat});
+}
+
+Result<std::vector<Loop>> LoopsOf(const std::vector<Curve>& outlines, const Tolerance& tolerance) {
+  std::vector<Loop> loops;
+  for (std::size_t i = 0; i < outlines.size(); ++i) {
+    const Result<Outline> face = OutlineOf({outlines[i]}, tolerance);
+    if (!face) {
+      return tl::unexpected(Error{face.error().code, face.error().detail, static_cast<int>(i)});
+    }
+    loops.emplace_back(*FacetsOf(outlines[i], tolerance));
+  }
+  return loops;
+}
+
+// The sides of the row of loops, those of one surface numbered alike: a corner of any of the loops
+// is an edge all along.
+Outline FirstOutline(const std::vector<Loop>& loops, Triangles cap) {
+  Outline outline;
+  const auto count = static_cast<std::uint32_t>(loops[0].size());
+  const auto smooth_at = [&](std::size_t i) {
+    return std::all_of(loops.begin(), loops.end(), [&](const Loop& l) { return l.IsSmoothAt(i); });
+  };
+  std::uint32_t surface = 0;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    if (i > 0 && !smooth_at(i)) ++surface;
+    outline.sides.push_back({i, (i + 1) % count, surface});
+  }
+  if (surface > 0 && smooth_at(0)) {  // the last surface goes on as the first
+    for (Outline::Side& side : outline.sides) side.surface %= surface;
+    --surface;
+  }
+  outline.surface_count = surface + 1;
+  outline.points = loops[0].points();
+  outline.triangles = std::move(cap);
+  return outline;
+}
+
+}  // namespace
+
+Result<TriangleMesh> LoftMesh(const std::vector<Curve>& outlines, const Tolerance& tolerance) {
+  Result<std::vector<Loop>> loops = LoopsOf(outlines, tolerance);
+  if (!loops) return tl::unexpected(loops.error());
+  bool same_counts = true;
+  for (std::size_t i = 1; i < loops->size(); ++i) {
+    Loop &loop = (*loops)[i], &before = (*loops)[i - 1];
+    if (loop.DoubledArea().dot(before.DoubledArea()) < 0) loop.Reverse();
+    loop.StartAt(loop.StartNearest(before));
+    same_counts = same_counts && loop.size() == before.size();
+  }
+  if (!same_counts) {
+    const std::vector<double> shares = UnitedShares(*loops);
+    for (Loop& loop : *loops) loop.Resample(shares);
+  }
+  Result<Triangles> first = CapOf(loops->front()), last = CapOf(loops->back());
+  if (!first) return tl::unexpected(first.error());
+  if (!last) return tl::unexpected(last.error());
+  Stations stations;
+  for (const Loop& loop : *loops) stations.points.push_back(loop.points());
+  for (std::uint32_t i = 0; i + 1 < loops->size(); ++i) stations.runs.push_back(i);
+  stations.run_count = static_cast<std::uint32_t>(loops->size()) - 1;
+  stations.last_triangles = *std::move(last);
+  return SkinOf(FirstOutline(*loops, *std::move(first)), stations);
+}
+
+}  // namespace tranos::geom
