@@ -97,9 +97,6 @@ const geom::Surface* SurfaceOf(const model::Element& element);  // null if it is
 // Between the nearest points of two elements.
 double DistanceBetween(const CallContext& context, const model::Element& a,
                        const model::Element& b);
-// Points that two curves share, in the order of the first.
-std::vector<geom::Vec3> Intersections(const CallContext& context, const geom::Curve& a,
-                                      const geom::Curve& b);
 
 // The families of functions.
 std::span<const Builtin> MathFunctions();
