@@ -18,8 +18,9 @@ std::size_t RankOf(std::string_view family) { return kFamilies.find(family); }
 std::vector<Command> Collect() {
   std::vector<Command> all;
   for (const auto family :
-       {PlaceCommands(), ChooseCommands(), CreateCommands(), TransformCommands(), ArrayCommands(),
-        EditCommands(), ConstructCommands(), PlaneCommands(), ViewCommands(), OutputCommands(),
+       {PlaceCommands(), PlaceCurveCommands(), ChooseCommands(), CreateCommands(),
+        TransformCommands(), ArrayCommands(), EditCommands(), OffsetCommands(), CutCommands(),
+        CornerCommands(), ConstructCommands(), PlaneCommands(), ViewCommands(), OutputCommands(),
         PhotographCommands(), TraceCommands(), CalibrateCommands(), HistoryCommands(),
         LaterCommands()}) {
     all.insert(all.end(), family.begin(), family.end());

@@ -93,6 +93,7 @@ double VolumeOf(const model::Element& element);
 double VolumeUnder(const model::Element& element, double z_m);
 const geom::Curve* CurveOf(const model::Element& element);      // null if it is none
 const geom::Surface* SurfaceOf(const model::Element& element);  // null if it is none
+const geom::Region* RegionOf(const model::Element& element);    // null if it is none
 
 // Between the nearest points of two elements.
 double DistanceBetween(const CallContext& context, const model::Element& a,

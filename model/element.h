@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "geom/curve.h"
+#include "geom/region.h"
 #include "geom/stroke_font.h"
 #include "geom/surface.h"
 #include "model/hash.h"
@@ -128,11 +129,12 @@ struct Point {
 };
 using CurvePtr = std::shared_ptr<const geom::Curve>;
 using SurfacePtr = std::shared_ptr<const geom::Surface>;
+using RegionPtr = std::shared_ptr<const geom::Region>;
 using TextPtr = std::shared_ptr<const geom::Text>;
 using InstancePtr = std::shared_ptr<const Instance>;
 using PhotographPtr = std::shared_ptr<const Photograph>;
 using TracePtr = std::shared_ptr<const Trace>;
-using Geometry = std::variant<Point, CurvePtr, SurfacePtr, TextPtr, GroupPtr, InstancePtr,
+using Geometry = std::variant<Point, CurvePtr, SurfacePtr, RegionPtr, TextPtr, GroupPtr, InstancePtr,
                               PhotographPtr, TracePtr>;
 
 struct Element {
@@ -165,7 +167,7 @@ bool IsBuilt(const Element& element);
 // no parts.
 int DepthOf(const Element& element);
 
-// "point", "line", "arc", "circle", "line string", "shape", "curve", "chain", "surface", "text",
+// "point", "line", "arc", "circle", "line string", "shape", "curve", "chain", "surface", "region", "text",
 // "group", "photograph", "camera", "trace edge" …, or an instance's words.
 std::string TypeOf(const Element& element);
 

@@ -17,6 +17,9 @@ struct TransformedGeometry {
   Geometry operator()(const SurfacePtr& surface) const {
     return std::make_shared<const geom::Surface>(geom::Transformed(*surface, target_from_source));
   }
+  Geometry operator()(const RegionPtr& region) const {
+    return std::make_shared<const geom::Region>(geom::Transformed(*region, target_from_source));
+  }
   Geometry operator()(const TextPtr& text) const {
     return std::make_shared<const geom::Text>(geom::Transformed(*text, target_from_source));
   }

@@ -142,10 +142,12 @@ std::optional<Error> CompletePart(Part& part, double pixel_m, model::RenderMode 
   if (mode == model::RenderMode::kPhong) return std::nullopt;
   part.edges = EdgesOf(mesh);
   part.feature_lines = LinesAlong(FeatureEdges(part.edges), mesh);
+  const auto* surface = std::get_if<model::SurfacePtr>(&part.element->geometry);
+  if (!surface) return std::nullopt;  // a region's outlines are all there is to see of it
   if (tolerance.facets_per_turn > 0) {
     part.form_lines = LinesAlong(FacetEdges(mesh, part.edges), mesh);
   } else if (!IsFlat(mesh)) {
-    part.form_lines = IsoLines(*std::get<model::SurfacePtr>(part.element->geometry));
+    part.form_lines = IsoLines(**surface);
   }
   return std::nullopt;
 }

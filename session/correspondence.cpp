@@ -33,6 +33,12 @@ class Skeleton {
   void Part(const model::SurfacePtr& surface) {
     std::visit([this](const auto& shape) { Part(shape); }, *surface);
   }
+  void Part(const model::RegionPtr& region) {
+    geom::ForEachOutline(*region, [this](const geom::Curve& outline, bool is_hole) {
+      hasher_.Tag(is_hole).Integer(static_cast<std::int64_t>(outline.index()));
+      std::visit([this](const auto& shape) { Part(shape); }, outline);
+    });
+  }
   void Part(const model::TextPtr& text) {
     hasher_.Text(text->content).Length(text->height_m);
     Frame(text->frame, 1);
@@ -184,6 +190,22 @@ double SurfaceDistance(const geom::Surface& a, const geom::Surface& b) {
   return largest;
 }
 
+// Nothing where they have other numbers of outlines.
+std::optional<double> RegionDistance(const geom::Region& a, const geom::Region& b) {
+  std::vector<const geom::Curve*> outlines;
+  geom::ForEachOutline(a, [&](const geom::Curve& outline, bool) { outlines.push_back(&outline); });
+  std::size_t index = 0;
+  double largest = 0;
+  geom::ForEachOutline(b, [&](const geom::Curve& outline, bool) {
+    if (index < outlines.size()) {
+      largest = std::max(largest, CurveDistance(*outlines[index], outline));
+    }
+    ++index;
+  });
+  if (index != outlines.size()) return std::nullopt;
+  return largest;
+}
+
 double TextDistance(const geom::Text& a, const geom::Text& b) {
   const auto corner = [](const geom::Text& text, double x, double y) {
     return Vec3(text.frame.origin + text.height_m * (x * text.frame.x + y * text.frame.y));
@@ -203,6 +225,8 @@ std::optional<double> LeafDistance(const model::Geometry& a, const model::Geomet
     return CurveDistance(**p, *std::get<model::CurvePtr>(b));
   if (const auto* p = std::get_if<model::SurfacePtr>(&a))
     return SurfaceDistance(**p, *std::get<model::SurfacePtr>(b));
+  if (const auto* p = std::get_if<model::RegionPtr>(&a))
+    return RegionDistance(**p, *std::get<model::RegionPtr>(b));
   if (const auto* p = std::get_if<model::TextPtr>(&a))
     return TextDistance(**p, *std::get<model::TextPtr>(b));
   return std::nullopt;

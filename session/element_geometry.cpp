@@ -30,6 +30,18 @@ class GeometryWriter {
   void operator()(const model::Point& point) { out_->Key("at").Point(point.position); }
   void operator()(const model::CurvePtr& curve) { std::visit(*this, *curve); }
   void operator()(const model::SurfacePtr& surface) { std::visit(*this, *surface); }
+  void operator()(const model::RegionPtr& region) {
+    Frame(region->plane, out_);
+    out_->Key("parts").Open('[');
+    for (const geom::Region::Part& part : region->parts) {
+      out_->Open('{').Key("outer");
+      Outline(part.outer);
+      out_->Key("holes").Open('[');
+      for (const geom::Curve& hole : part.holes) Outline(hole);
+      out_->Close(']').Close('}');
+    }
+    out_->Close(']');
+  }
   void operator()(const model::TextPtr& text) {
     out_->Key("text").String(text->content).Key("height").Length(text->height_m);
     Frame(text->frame, out_);
@@ -112,6 +124,11 @@ class GeometryWriter {
   void Side(std::string_view key, const geom::BsplineCurve& curve) {
     out_->Key(key).Open('{');
     (*this)(curve);
+    out_->Close('}');
+  }
+  void Outline(const geom::Curve& curve) {
+    out_->Open('{');
+    std::visit(*this, curve);
     out_->Close('}');
   }
   void Write(const model::Instance& instance) {

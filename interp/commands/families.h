@@ -9,11 +9,15 @@
 namespace tranos::interp {
 
 std::span<const Command> PlaceCommands();
+std::span<const Command> PlaceCurveCommands();  // ellipse, polygon, curve, arc tangent
 std::span<const Command> ChooseCommands();
 std::span<const Command> CreateCommands();
 std::span<const Command> TransformCommands();  // copy, move, rotate, mirror, scale
 std::span<const Command> ArrayCommands();
-std::span<const Command> EditCommands();  // delete, drop, modify
+std::span<const Command> OffsetCommands();
+std::span<const Command> CutCommands();     // trim, extend, divide
+std::span<const Command> CornerCommands();  // fillet, chamfer
+std::span<const Command> EditCommands();    // delete, drop, modify
 std::span<const Command> ConstructCommands();
 std::span<const Command> PlaneCommands();
 std::span<const Command> ViewCommands();        // set view, view, level

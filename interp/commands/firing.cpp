@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "interp/commands/range.h"
 #include "interp/geometry_error.h"
 
 namespace tranos::interp {
@@ -66,6 +67,19 @@ std::optional<CommandError> TooFar(const Answers& answers) {
     if (IsFar(value)) return FarError({Where::kKey, 0, key});
   }
   return std::nullopt;
+}
+
+geom::Frame PlaneAt(const State& state, const geom::Vec3& origin) {
+  const geom::Frame& plane = state.drawing.settings->plane;
+  return {origin, plane.x, plane.y};
+}
+
+CommandError OffPlane(const State& state, double height_m, int point) {
+  return {.code = Code::kNotPlanar,
+          .message = fmt::format("this point lies {} off the active plane through the first one",
+                                 InWords(std::abs(height_m), *state.drawing.settings)),
+          .help = "`set plane front` draws upright; see `tranos help set plane`",
+          .where = AtPoint(point)};
 }
 
 std::optional<CommandError> NothingChosen(const Answers& answers) {
@@ -134,6 +148,11 @@ std::string InWords(double length_m, const model::Settings& settings) {
       return fmt::format("{:.4g} {}", length_m / unit.metres, unit.name);
   }
   return fmt::format("{:.4g} m", length_m);
+}
+
+std::string RangeInWords(double largest_m, const model::Settings& settings) {
+  if (largest_m <= 0) return {};
+  return fmt::format("above 0 and at most {}", InWords(largest_m, settings));
 }
 
 }  // namespace tranos::interp

@@ -18,6 +18,13 @@ inline constexpr Key kOf = {"of", Type::kElements, "what to work on, in place of
 inline constexpr Key kKeep = {
     "keep", Type::kBoolean, "leave what it is made from in the model", {}, "false"};
 
+// How far a point may lie off a plane and still count as in it.
+inline constexpr double kOffPlane_m = 1e-6;
+
+inline Where AtPoint(int index) { return {Where::kPoint, index, {}}; }
+inline Where AtKey(std::string_view key) { return {Where::kKey, 0, key}; }
+inline Where AtChosen(std::size_t index) { return {Where::kChosen, static_cast<int>(index), {}}; }
+
 inline tl::unexpected<CommandError> Fail(CommandError error) {
   return tl::unexpected<CommandError>(std::move(error));
 }
@@ -26,6 +33,11 @@ inline tl::unexpected<CommandError> Fail(CommandError error) {
 std::optional<CommandError> TooFar(const Answers& answers);
 // An error if nothing is chosen.
 std::optional<CommandError> NothingChosen(const Answers& answers);
+
+// The active plane, moved to this origin.
+geom::Frame PlaneAt(const model::State& state, const geom::Vec3& origin);
+// The error of a data point that lies this far off it.
+CommandError OffPlane(const model::State& state, double height_m, int point);
 
 // An edit that adds one element with the settings now in force.
 CommandResult Make(const model::State& state, model::Geometry geometry);

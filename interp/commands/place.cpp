@@ -15,25 +15,6 @@ using model::State;
 
 namespace {
 
-// How far a point may lie off a plane and still count as in it.
-constexpr double kOffPlane_m = 1e-6;
-
-Where AtPoint(int index) { return {Where::kPoint, index, {}}; }
-Where AtKey(std::string_view key) { return {Where::kKey, 0, key}; }
-
-Frame PlaneAt(const State& state, const Vec3& origin) {
-  const Frame& plane = state.drawing.settings->plane;
-  return {origin, plane.x, plane.y};
-}
-
-CommandError OffPlane(const State& state, double height_m, int point) {
-  return {.code = Code::kNotPlanar,
-          .message = fmt::format("this point lies {} off the active plane through the first one",
-                                 InWords(std::abs(height_m), *state.drawing.settings)),
-          .help = "`set plane front` draws upright; see `tranos help set plane`",
-          .where = AtPoint(point)};
-}
-
 CommandResult PlacePoint(const State& state, const Answers& answers) {
   if (auto error = TooFar(answers)) return Fail(*error);
   return Make(state, model::Point{answers.points[0]});
