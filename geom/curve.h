@@ -73,7 +73,8 @@ Result<Chain> JoinChain(const std::vector<Curve>& curves, double tolerance_m = 1
 
 Vec3 PointAt(const Curve&, double t);                 // at the natural parameter, clamped to [0, 1]
 Vec3 PointAtFraction(const Curve&, double fraction);  // at this fraction of its length
-Vec3 TangentAt(const Curve&, double t);               // unit, in the direction of travel
+double ParameterAtFraction(const Curve&, double fraction);
+Vec3 TangentAt(const Curve&, double t);  // unit, in the direction of travel
 bool IsClosed(const Curve&);
 double Length(const Curve&);                // m; 1e-9 relative
 Result<double> EnclosedArea(const Curve&);  // m²; closed and planar, else an error

@@ -3,6 +3,7 @@
 
 #include "geom/curve_pieces.h"
 #include "geom/quadrature.h"
+#include "geom/winding.h"
 
 namespace tranos::geom {
 namespace {
@@ -29,13 +30,14 @@ double ParameterAtLength(const BezierPoles& poles, double length_m, double total
   return s;
 }
 
-Vec3 PointAtLength(const Line& line, double length_m, double total_m) {
-  return JetOf(line, total_m > 0 ? length_m / total_m : 0).point;
+// The piece's parameter where its length from the start is `length_m` of `total_m`.
+double ParameterAtLength(const Line&, double length_m, double total_m) {
+  return total_m > 0 ? length_m / total_m : 0;
 }
-Vec3 PointAtLength(const Arc& arc, double length_m, double total_m) {
-  return JetOf(arc, total_m > 0 ? length_m / total_m : 0).point;
+double ParameterAtLength(const Arc&, double length_m, double total_m) {
+  return total_m > 0 ? length_m / total_m : 0;
 }
-Vec3 PointAtLength(const BsplineCurve& curve, double length_m, double) {
+double ParameterAtLength(const BsplineCurve& curve, double length_m, double) {
   const std::vector<BezierSpan> spans = BezierSpansOf(curve);
   for (std::size_t i = 0; i < spans.size(); ++i) {
     const double span_m = LengthOfSpan(spans[i].poles, 1);
@@ -43,10 +45,25 @@ Vec3 PointAtLength(const BsplineCurve& curve, double length_m, double) {
       length_m -= span_m;
       continue;
     }
-    const double within_m = std::min(length_m, span_m);
-    return JetOf(spans[i].poles, ParameterAtLength(spans[i].poles, within_m, span_m)).point;
+    const double s = ParameterAtLength(spans[i].poles, std::min(length_m, span_m), span_m);
+    return spans[i].begin + s * (spans[i].end - spans[i].begin);
   }
-  return Vec3::Zero();
+  return 0;
+}
+
+// Calls f(piece, local, t0, t1) for the piece that holds the fraction of the length, at its own
+// parameter there; the piece lies over [t0, t1] of the curve.
+template <class F>
+void AtFraction(const Curve& curve, double fraction, const F& f) {
+  double left_m = fraction * Length(curve);
+  bool found = false;
+  ForEachPiece(curve, [&](const auto& piece, double t0, double t1) {
+    if (found) return;
+    const double length_m = LengthOf(piece);
+    found = left_m <= length_m;
+    if (found) f(piece, ParameterAtLength(piece, left_m, length_m), t0, t1);
+    left_m -= length_m;
+  });
 }
 
 // ∫ f(jet) dt along the curve, for integrands that are smooth on each span. T is a vector.
@@ -90,23 +107,6 @@ Vec3 AreaVector(const Curve& curve, const Vec3& origin) {
          });
 }
 
-// Points that lie in a plane exactly if the curve does.
-std::vector<Vec3> SpanningPoints(const Curve& curve) {
-  std::vector<Vec3> points;
-  ForEachPiece(curve, Overloaded{[&](const Line& l, double, double) {
-                                   points.push_back(l.start);
-                                   points.push_back(l.end);
-                                 },
-                                 [&](const Arc& a, double, double) {
-                                   for (int i = 0; i <= 4; ++i)
-                                     points.push_back(JetOf(a, 0.25 * i).point);
-                                 },
-                                 [&](const BsplineCurve& b, double, double) {
-                                   points.insert(points.end(), b.poles.begin(), b.poles.end());
-                                 }});
-  return points;
-}
-
 }  // namespace
 
 double LengthOf(const Line& line) { return (line.end - line.start).norm(); }
@@ -127,15 +127,21 @@ double Length(const Curve& curve) {
 Vec3 PointAtFraction(const Curve& curve, double fraction) {
   if (!(fraction > 0)) return PointAt(curve, 0);
   if (fraction >= 1) return PointAt(curve, 1);
-  double left_m = fraction * Length(curve);
-  std::optional<Vec3> found;
-  ForEachPiece(curve, [&](const auto& piece, double, double) {
-    if (found) return;
-    const double length_m = LengthOf(piece);
-    if (left_m <= length_m) found = PointAtLength(piece, left_m, length_m);
-    left_m -= length_m;
+  Vec3 point = PointAt(curve, 1);
+  AtFraction(curve, fraction, [&](const auto& piece, double local, double, double) {
+    const Vec3 found = JetOf(piece, local).point;
+    if (found.allFinite()) point = found;
   });
-  return found && found->allFinite() ? *found : PointAt(curve, 1);
+  return point;
+}
+
+double ParameterAtFraction(const Curve& curve, double fraction) {
+  if (!(fraction > 0)) return 0;
+  double t = 1;
+  if (fraction >= 1) return t;
+  AtFraction(curve, fraction,
+             [&](const auto&, double local, double t0, double t1) { t = t0 + local * (t1 - t0); });
+  return t;
 }
 
 std::optional<Frame> PlaneOf(const Curve& curve) {

@@ -121,12 +121,21 @@ double FromSurface(const geom::Surface& surface, const model::Element& other) {
   return LeastFrom(surface, std::move(samples), other);
 }
 
-std::uint64_t CountLeaves(const model::Element& element, bool* has_surface) {
+// Of two plane faces one's border is nearest to the other, or passes through it.
+double FromBorder(const geom::Region& region, const model::Element& other) {
+  double best = std::numeric_limits<double>::infinity();
+  geom::ForEachOutline(region, [&](const geom::Curve& outline, bool) {
+    best = std::min(best, FromCurve(outline, other));
+  });
+  return best;
+}
+
+std::uint64_t CountLeaves(const model::Element& element, bool* has_face) {
   std::uint64_t leaves = 0;
   model::ForEachLeaf(
       element, [&](const model::Element& leaf, const geom::Affine&, const model::Attributes&) {
         ++leaves;
-        if (SurfaceOf(leaf) || SolidOf(leaf)) *has_surface = true;
+        if (SurfaceOf(leaf) || RegionOf(leaf) || SolidOf(leaf)) *has_face = true;
       });
   return leaves;
 }
@@ -145,6 +154,8 @@ double FromEachLeaf(const model::Element& a, const model::Element& b) {
       distance = FromSurface(*surface, b);
     } else if (const geom::Solid* solid = SolidOf(*placed)) {
       distance = FromSolid(**solid->Facets(), b);
+    } else if (const geom::Region* region = RegionOf(*placed)) {
+      distance = FromBorder(*region, b);
     } else if (const auto* text = std::get_if<model::TextPtr>(&placed->geometry)) {
       for (std::vector<Vec3>& stroke : geom::Strokes(**text)) {
         if (stroke.size() < 2) continue;
@@ -165,15 +176,16 @@ double DistanceBetween(const CallContext& context, const model::Element& a,
   const auto* line = p ? std::get_if<geom::Line>(p) : nullptr;
   const auto* other = q ? std::get_if<geom::Line>(q) : nullptr;
   if (line && other) return BetweenLines(*line, *other);
-  bool surface_a = false, surface_b = false;
-  const std::uint64_t leaves_a = CountLeaves(a, &surface_a), leaves_b = CountLeaves(b, &surface_b);
+  bool face_a = false, face_b = false;
+  const std::uint64_t leaves_a = CountLeaves(a, &face_a), leaves_b = CountLeaves(b, &face_b);
   if (leaves_a == 0 || leaves_b == 0) {
     throw OpFailure{Code::kWrongElement, "an empty element is at no distance", "", "",
                     leaves_a == 0 ? 0 : 1};
   }
   context.charge_items(leaves_a * leaves_b * 300);
   // Sampling along curves converges faster than across surfaces.
-  const double distance = surface_a && !surface_b ? FromEachLeaf(b, a) : FromEachLeaf(a, b);
+  double distance = face_a && !face_b ? FromEachLeaf(b, a) : FromEachLeaf(a, b);
+  if (face_a && face_b) distance = std::min(distance, FromEachLeaf(b, a));
   if (!std::isfinite(distance))
     throw OpFailure{Code::kNotFinite, "the distance is not a finite number"};
   return distance;

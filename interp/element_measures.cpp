@@ -46,6 +46,11 @@ const geom::Solid* SolidOf(const model::Element& element) {
   return solid ? solid->get() : nullptr;
 }
 
+const geom::Region* RegionOf(const model::Element& element) {
+  const auto* region = std::get_if<model::RegionPtr>(&element.geometry);
+  return region ? region->get() : nullptr;
+}
+
 double LengthOf(const model::Element& element) {
   if (const std::optional<double> length_m = model::Length(element)) return Finite(*length_m);
   throw OpFailure{Code::kWrongElement, WithArticle(model::TypeOf(element)) + " has no length"};

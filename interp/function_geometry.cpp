@@ -2,6 +2,7 @@
 // Functions of elements.
 #include <cmath>
 
+#include "geom/crossing.h"
 #include "interp/value_support.h"
 
 namespace tranos::interp {
@@ -54,16 +55,17 @@ Value Intersection(const CallContext& context, Arguments a) {
   const model::ElementPtr second = ElementArgument(context, a, 1);
   const geom::Curve& p = CurveArgument(first, 0);
   const geom::Curve& q = CurveArgument(second, 1);
-  const std::vector<geom::Vec3> points = Intersections(context, p, q);
+  context.charge_items(geom::CountPieces(p) * geom::CountPieces(q));
+  const std::vector<geom::Crossing> points = geom::Crossings(p, q);
   const auto* line = std::get_if<geom::Line>(&p);
   const auto* other = std::get_if<geom::Line>(&q);
   if (line && other) {
     if (points.empty()) throw NoCommonPoint(*line, *other, *context.arithmetic.unit);
-    return Value::OfPoint(points[0]);
+    return Value::OfPoint(points[0].point);
   }
   context.charge_items(points.size());
   std::vector<Value> items;
-  for (const geom::Vec3& point : points) items.push_back(Value::OfPoint(point));
+  for (const geom::Crossing& point : points) items.push_back(Value::OfPoint(point.point));
   return Value::List(std::move(items));
 }
 

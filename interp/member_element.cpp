@@ -137,6 +137,20 @@ std::optional<Value> SolidMember(const CallContext& context, const Element& elem
   return Value::Number(static_cast<double>(end - surfaces.begin()));
 }
 
+std::optional<Value> RegionMember(const CallContext& context, const geom::Region& region,
+                                  std::string_view name) {
+  if (name == "perimeter") return Length(geom::Perimeter(region));
+  if (name == "centroid") return Value::OfPoint(geom::Centroid(region));
+  if (name == "plane") return Value::Plane(region.plane);
+  double outlines = 0, holes = 0;
+  geom::ForEachOutline(region,
+                       [&](const geom::Curve&, bool is_hole) { ++(is_hole ? holes : outlines); });
+  context.charge_items(static_cast<std::size_t>(outlines + holes));
+  if (name == "parts") return Value::Number(outlines);
+  if (name == "holes") return Value::Number(holes);
+  return std::nullopt;
+}
+
 // A part as it is seen through its placement. It stands in no model by itself, so it has no id.
 ElementPtr PlacedPart(const ElementPtr& part, const model::Instance& instance,
                       const model::Attributes& placement) {
@@ -270,6 +284,7 @@ std::optional<Value> OwnMember(const CallContext& context, const Element& elemen
   }
   if (const geom::Curve* curve = CurveOf(element)) return CurveMember(context, *curve, name);
   if (SolidOf(element)) return SolidMember(context, element, name);
+  if (const geom::Region* region = RegionOf(element)) return RegionMember(context, *region, name);
   if (const auto* text = std::get_if<model::TextPtr>(&element.geometry)) {
     if (name == "text") return Value::String((*text)->content);
     if (name == "height") return Length((*text)->height_m);
@@ -296,6 +311,7 @@ std::vector<std::string> OwnMembers(const Element& element) {
   if (const geom::Curve* curve = CurveOf(element)) return CurveMembers(*curve);
   if (SurfaceOf(element)) return {"point(u, v)", "normal(u, v)"};
   if (SolidOf(element)) return {"centroid", "closed", "genus", "faces", "shells"};
+  if (RegionOf(element)) return {"perimeter", "centroid", "parts", "holes", "plane"};
   if (std::holds_alternative<model::TextPtr>(element.geometry)) {
     return {"text", "height", "plane", "position", "x", "y", "z"};
   }

@@ -89,6 +89,11 @@ Box RoughBoxOf(const Element& leaf) {
   if (const auto* surface = std::get_if<model::SurfacePtr>(&leaf.geometry)) {
     return std::visit(RoughBox{}, **surface);
   }
+  if (const auto* region = std::get_if<model::RegionPtr>(&leaf.geometry)) {
+    Box box;
+    for (const auto& part : (*region)->parts) box.Add(std::visit(RoughBox{}, part.outer));
+    return box;
+  }
   return model::BoundingBox(leaf);
 }
 
@@ -108,7 +113,9 @@ bool IsComposite(const Element& element) {
 int RankOf(const Element& leaf) {
   if (std::holds_alternative<model::Point>(leaf.geometry)) return 0;
   if (std::holds_alternative<model::SolidPtr>(leaf.geometry)) return 3;
-  return std::holds_alternative<model::SurfacePtr>(leaf.geometry) ? 2 : 1;
+  const bool is_face = std::holds_alternative<model::SurfacePtr>(leaf.geometry) ||
+                       std::holds_alternative<model::RegionPtr>(leaf.geometry);
+  return is_face ? 2 : 1;
 }
 
 class Search {

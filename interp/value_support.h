@@ -94,13 +94,11 @@ double VolumeUnder(const model::Element& element, double z_m);
 const geom::Curve* CurveOf(const model::Element& element);      // null if it is none
 const geom::Surface* SurfaceOf(const model::Element& element);  // null if it is none
 const geom::Solid* SolidOf(const model::Element& element);      // null if it is none
+const geom::Region* RegionOf(const model::Element& element);    // null if it is none
 
 // Between the nearest points of two elements.
 double DistanceBetween(const CallContext& context, const model::Element& a,
                        const model::Element& b);
-// Points that two curves share, in the order of the first.
-std::vector<geom::Vec3> Intersections(const CallContext& context, const geom::Curve& a,
-                                      const geom::Curve& b);
 
 // The families of functions.
 std::span<const Builtin> MathFunctions();

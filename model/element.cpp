@@ -30,6 +30,8 @@ enum Tag : std::uint8_t {
   kPhotograph,
   kTrace,
   kSolid,
+  kRegion,
+  kRegionPart,
 };
 
 void AddCount(Hasher& hasher, std::size_t count) {
@@ -97,10 +99,29 @@ void Add(Hasher& hasher, const Point& point) { hasher.Tag(kPoint).Point(point.po
 void Add(Hasher& hasher, const CurvePtr& curve) {
   std::visit([&](const auto& shape) { Add(hasher, shape); }, *curve);
 }
+Hash128 HashOf(const geom::Curve& curve) {
+  Hasher hasher;
+  std::visit([&](const auto& shape) { Add(hasher, shape); }, curve);
+  return hasher.Finish();
+}
 void Add(Hasher& hasher, const SurfacePtr& surface) {
   std::visit([&](const auto& shape) { Add(hasher, shape); }, *surface);
 }
 void Add(Hasher& hasher, const SolidPtr& solid) { hasher.Tag(kSolid).Hash(HashOf(*solid)); }
+// Sums, for the order of parts and holes is no part of what the region is.
+void Add(Hasher& hasher, const RegionPtr& region) {
+  Hash128 parts;
+  for (const geom::Region::Part& part : region->parts) {
+    Hash128 holes;
+    for (const geom::Curve& hole : part.holes) holes = holes + HashOf(hole);
+    Hasher one;
+    one.Tag(kRegionPart).Hash(HashOf(part.outer)).Hash(holes);
+    AddCount(one, part.holes.size());
+    parts = parts + one.Finish();
+  }
+  hasher.Tag(kRegion).Direction(region->plane.z()).Hash(parts);
+  AddCount(hasher, region->parts.size());
+}
 void Add(Hasher& hasher, const TextPtr& text) {
   hasher.Tag(kText).Text(text->content).Length(text->height_m);
   AddFrame(hasher, text->frame);
@@ -254,6 +275,7 @@ std::string TypeOf(const Element& element) {
     std::string operator()(const geom::Chain&) const { return "chain"; }
     std::string operator()(const SurfacePtr&) const { return "surface"; }
     std::string operator()(const SolidPtr&) const { return "solid"; }
+    std::string operator()(const RegionPtr&) const { return "region"; }
     std::string operator()(const TextPtr&) const { return "text"; }
     std::string operator()(const GroupPtr&) const { return "group"; }
     std::string operator()(const InstancePtr& instance) const { return instance->prototype->words; }

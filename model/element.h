@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "geom/curve.h"
+#include "geom/region.h"
 #include "geom/solid.h"
 #include "geom/stroke_font.h"
 #include "geom/surface.h"
@@ -130,12 +131,14 @@ struct Point {
 using CurvePtr = std::shared_ptr<const geom::Curve>;
 using SurfacePtr = std::shared_ptr<const geom::Surface>;
 using SolidPtr = std::shared_ptr<const geom::Solid>;
+using RegionPtr = std::shared_ptr<const geom::Region>;
 using TextPtr = std::shared_ptr<const geom::Text>;
 using InstancePtr = std::shared_ptr<const Instance>;
 using PhotographPtr = std::shared_ptr<const Photograph>;
 using TracePtr = std::shared_ptr<const Trace>;
-using Geometry = std::variant<Point, CurvePtr, SurfacePtr, SolidPtr, TextPtr, GroupPtr, InstancePtr,
-                              PhotographPtr, TracePtr>;
+using Geometry = std::variant<Point, CurvePtr, SurfacePtr, RegionPtr, SolidPtr, TextPtr, GroupPtr,
+                              InstancePtr, PhotographPtr, TracePtr>;
+PhotographPtr, TracePtr > ;
 
 struct Element {
   ElementId id = kNoElement;
@@ -167,8 +170,8 @@ bool IsBuilt(const Element& element);
 // no parts.
 int DepthOf(const Element& element);
 
-// "point", "line", "arc", "circle", "line string", "shape", "curve", "chain", "surface", "solid",
-// "text", "group", "photograph", "camera", "trace edge" …, or an instance's words.
+// "point", "line", "arc", "circle", "line string", "shape", "curve", "chain", "surface", "region",
+// "solid", "text", "group", "photograph", "camera", "trace edge" …, or an instance's words.
 std::string TypeOf(const Element& element);
 
 // Measures. Nothing where the element has none of the kind: a point has no length, an open curve

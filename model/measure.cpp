@@ -55,7 +55,7 @@ geom::Box BoxOf(const Point& point, const geom::Affine& world_from_shape) {
 }
 
 // Calls f(shape, world_from_shape) for the shape of every leaf: a point, a curve, a surface, a
-// solid or a text.
+// region, a solid or a text.
 template <class F>
 void ForEachShape(const Element& element, const F& f) {
   ForEachLeaf(element, [&](const Element& leaf, const geom::Affine& world, const Attributes&) {
@@ -63,6 +63,7 @@ void ForEachShape(const Element& element, const F& f) {
     if (const auto* curve = std::get_if<CurvePtr>(&leaf.geometry)) f(**curve, world, leaf);
     if (const auto* surface = std::get_if<SurfacePtr>(&leaf.geometry)) f(**surface, world, leaf);
     if (const auto* solid = std::get_if<SolidPtr>(&leaf.geometry)) f(**solid, world, leaf);
+    if (const auto* region = std::get_if<RegionPtr>(&leaf.geometry)) f(**region, world, leaf);
     if (const auto* text = std::get_if<TextPtr>(&leaf.geometry)) f(**text, world, leaf);
   });
 }
@@ -172,21 +173,20 @@ std::optional<double> Length(const Element& element) {
 
 std::optional<double> Area(const Element& element) {
   std::optional<double> sum;
-  ForEachShape(element,
-               [&]<class Shape>(const Shape& shape, const geom::Affine& world, const Element&) {
-                 if constexpr (std::is_same_v<Shape, geom::Surface>) {
-                   AddTo(sum, MeasureInWorld(shape, world, 2, [](const geom::Surface& surface) {
-                           return geom::Area(surface);
-                         }));
-                 } else if constexpr (std::is_same_v<Shape, geom::Curve>) {
-                   if (!geom::IsClosed(shape) || !geom::EnclosedArea(shape)) return;
-                   AddTo(sum, MeasureInWorld(shape, world, 2, [](const geom::Curve& curve) {
-                           return geom::EnclosedArea(curve).value_or(0);
-                         }));
-                 } else if constexpr (std::is_same_v<Shape, geom::Solid>) {
-                   AddTo(sum, AreaInWorld(shape, world));
-                 }
-               });
+  ForEachShape(
+      element, [&]<class Shape>(const Shape& shape, const geom::Affine& world, const Element&) {
+        if constexpr (std::is_same_v<Shape, geom::Surface> || std::is_same_v<Shape, geom::Region>) {
+          AddTo(sum, MeasureInWorld(shape, world, 2,
+                                    [](const Shape& face) { return geom::Area(face); }));
+        } else if constexpr (std::is_same_v<Shape, geom::Curve>) {
+          if (!geom::IsClosed(shape) || !geom::EnclosedArea(shape)) return;
+          AddTo(sum, MeasureInWorld(shape, world, 2, [](const geom::Curve& curve) {
+                  return geom::EnclosedArea(curve).value_or(0);
+                }));
+        } else if constexpr (std::is_same_v<Shape, geom::Solid>) {
+          AddTo(sum, AreaInWorld(shape, world));
+        }
+      });
   return sum;
 }
 

@@ -20,6 +20,9 @@ struct TransformedGeometry {
   Geometry operator()(const SolidPtr& solid) const {
     return std::make_shared<const geom::Solid>(solid->Transformed(target_from_source));
   }
+  Geometry operator()(const RegionPtr& region) const {
+    return std::make_shared<const geom::Region>(geom::Transformed(*region, target_from_source));
+  }
   Geometry operator()(const TextPtr& text) const {
     return std::make_shared<const geom::Text>(geom::Transformed(*text, target_from_source));
   }

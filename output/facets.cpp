@@ -66,6 +66,20 @@ struct FacetMaker {
     facets.mesh = geom::FacetsOf(**mesh);
     return facets;
   }
+  geom::Result<Facets> operator()(const model::RegionPtr& region) const {
+    auto flat = geom::Triangulate(*region, tolerance);
+    if (!flat) return tl::unexpected(flat.error());
+    Facets facets;
+    facets.mesh.normals.assign(flat->positions.size(), region->plane.z());
+    facets.mesh.positions = std::move(flat->positions);
+    facets.mesh.triangles = std::move(flat->triangles);
+    for (const auto& loop : flat->loops) {
+      for (std::uint32_t i = loop.begin; i < loop.end; ++i) {
+        facets.mesh.edges.push_back({i, i + 1 < loop.end ? i + 1 : loop.begin});
+      }
+    }
+    return facets;
+  }
   geom::Result<Facets> operator()(const model::TextPtr& text) const {
     Facets facets;
     facets.strokes = geom::Strokes(*text);

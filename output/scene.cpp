@@ -142,10 +142,12 @@ std::optional<Error> CompletePart(Part& part, double pixel_m, model::RenderMode 
   if (mode == model::RenderMode::kPhong) return std::nullopt;
   part.edges = EdgesOf(mesh);
   part.feature_lines = LinesAlong(FeatureEdges(part.edges), mesh);
+  // A region's outlines are all there is to see of it.
+  if (std::holds_alternative<model::RegionPtr>(part.element->geometry)) return std::nullopt;
+  const auto* surface = std::get_if<model::SurfacePtr>(&part.element->geometry);
   if (tolerance.facets_per_turn > 0) {
     part.form_lines = LinesAlong(FacetEdges(mesh, part.edges), mesh);
-  } else if (const auto* surface = std::get_if<model::SurfacePtr>(&part.element->geometry);
-             surface && !IsFlat(mesh)) {
+  } else if (surface && !IsFlat(mesh)) {
     part.form_lines = IsoLines(**surface);
   }
   return std::nullopt;

@@ -36,6 +36,12 @@ class Skeleton {
     std::visit([this](const auto& shape) { Part(shape); }, *surface);
   }
   void Part(const model::SolidPtr& solid) { Add(*solid); }
+  void Part(const model::RegionPtr& region) {
+    geom::ForEachOutline(*region, [this](const geom::Curve& outline, bool is_hole) {
+      hasher_.Tag(is_hole).Integer(static_cast<std::int64_t>(outline.index()));
+      std::visit([this](const auto& shape) { Part(shape); }, outline);
+    });
+  }
   void Part(const model::TextPtr& text) {
     hasher_.Text(text->content).Length(text->height_m);
     Frame(text->frame, 1);
@@ -221,6 +227,22 @@ std::optional<double> SolidDistance(const geom::Solid& a, const geom::Solid& b) 
   return Largest((*p)->positions, (*q)->positions);
 }
 
+// Nothing where they have other numbers of outlines.
+std::optional<double> RegionDistance(const geom::Region& a, const geom::Region& b) {
+  std::vector<const geom::Curve*> outlines;
+  geom::ForEachOutline(a, [&](const geom::Curve& outline, bool) { outlines.push_back(&outline); });
+  std::size_t index = 0;
+  double largest = 0;
+  geom::ForEachOutline(b, [&](const geom::Curve& outline, bool) {
+    if (index < outlines.size()) {
+      largest = std::max(largest, CurveDistance(*outlines[index], outline));
+    }
+    ++index;
+  });
+  if (index != outlines.size()) return std::nullopt;
+  return largest;
+}
+
 double TextDistance(const geom::Text& a, const geom::Text& b) {
   const auto corner = [](const geom::Text& text, double x, double y) {
     return Vec3(text.frame.origin + text.height_m * (x * text.frame.x + y * text.frame.y));
@@ -242,6 +264,8 @@ std::optional<double> LeafDistance(const model::Geometry& a, const model::Geomet
     return SurfaceDistance(**p, *std::get<model::SurfacePtr>(b));
   if (const auto* p = std::get_if<model::SolidPtr>(&a))
     return SolidDistance(**p, *std::get<model::SolidPtr>(b));
+  if (const auto* p = std::get_if<model::RegionPtr>(&a))
+    return RegionDistance(**p, *std::get<model::RegionPtr>(b));
   if (const auto* p = std::get_if<model::TextPtr>(&a))
     return TextDistance(**p, *std::get<model::TextPtr>(b));
   return std::nullopt;

@@ -36,6 +36,18 @@ class GeometryWriter {
   void operator()(const model::SolidPtr& solid) {
     out_->Key("content").String(model::Hex(model::HashOf(*solid)));
   }
+  void operator()(const model::RegionPtr& region) {
+    Frame(region->plane, out_);
+    out_->Key("parts").Open('[');
+    for (const geom::Region::Part& part : region->parts) {
+      out_->Open('{').Key("outer");
+      Outline(part.outer);
+      out_->Key("holes").Open('[');
+      for (const geom::Curve& hole : part.holes) Outline(hole);
+      out_->Close(']').Close('}');
+    }
+    out_->Close(']');
+  }
   void operator()(const model::TextPtr& text) {
     out_->Key("text").String(text->content).Key("height").Length(text->height_m);
     Frame(text->frame, out_);
@@ -118,6 +130,11 @@ class GeometryWriter {
   void Side(std::string_view key, const geom::BsplineCurve& curve) {
     out_->Key(key).Open('{');
     (*this)(curve);
+    out_->Close('}');
+  }
+  void Outline(const geom::Curve& curve) {
+    out_->Open('{');
+    std::visit(*this, curve);
     out_->Close('}');
   }
   void Write(const model::Instance& instance) {

@@ -10,10 +10,14 @@ namespace tranos::interp {
 
 std::span<const Command> PlaceCommands();
 std::span<const Command> PlaceSolidCommands();
+std::span<const Command> PlaceCurveCommands();  // ellipse, polygon, curve, arc tangent
 std::span<const Command> ChooseCommands();
 std::span<const Command> CreateCommands();
 std::span<const Command> TransformCommands();  // copy, move, rotate, mirror, scale
 std::span<const Command> ArrayCommands();
+std::span<const Command> OffsetCommands();
+std::span<const Command> CutCommands();        // trim, extend, divide
+std::span<const Command> CornerCommands();     // fillet, chamfer
 std::span<const Command> EditCommands();       // delete, drop, modify
 std::span<const Command> ConstructCommands();  // surfaces
 std::span<const Command> ConstructSolidCommands();

@@ -35,6 +35,15 @@ class Outliner {
   void operator()(const model::SolidPtr& solid) const {
     if (const auto mesh = solid->Facets()) AddTriangles(**mesh);
   }
+  void operator()(const model::RegionPtr& region) const {
+    const auto facets = geom::Triangulate(*region, tolerance_);
+    if (!facets) return;
+    for (const auto& [a, b, c] : facets->triangles) {
+      Add(facets->positions[a], facets->positions[b]);
+      Add(facets->positions[b], facets->positions[c]);
+      Add(facets->positions[c], facets->positions[a]);
+    }
+  }
   void operator()(const model::TextPtr& text) const {
     for (const std::vector<Vec3>& stroke : geom::Strokes(*text)) AddRun(stroke);
   }

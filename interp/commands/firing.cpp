@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "interp/commands/range.h"
 #include "interp/geometry_error.h"
 
 namespace tranos::interp {
@@ -147,6 +148,11 @@ std::string InWords(double length_m, const model::Settings& settings) {
       return fmt::format("{:.4g} {}", length_m / unit.metres, unit.name);
   }
   return fmt::format("{:.4g} m", length_m);
+}
+
+std::string RangeInWords(double largest_m, const model::Settings& settings) {
+  if (largest_m <= 0) return {};
+  return fmt::format("above 0 and at most {}", InWords(largest_m, settings));
 }
 
 }  // namespace tranos::interp

@@ -18,20 +18,8 @@ constexpr Later Row(std::string_view words, std::string_view family, std::string
 }
 
 constexpr Later kLater[] = {
-    Row("place arc tangent", "place",
-        "A circular arc that goes on smoothly from the end of a curve."),
-    Row("place ellipse", "place", "An ellipse by its centre and two half axes."),
-    Row("place polygon", "place", "A regular polygon about a centre."),
-    Row("place curve", "place", "A smooth curve by its poles or through points."),
     Row("place dimension", "place", "A measure between two points, with its number."),
     Row("place wall", "place", "A wall of a thickness and a height along a line."),
-    Row("create region", "create", "A face from closed planar outlines, with holes."),
-    Row("offset", "manipulate", "A parallel curve at a distance."),
-    Row("trim", "manipulate", "Cuts curves off where others cross them."),
-    Row("extend", "manipulate", "Lengthens curves to where they meet others."),
-    Row("divide", "manipulate", "Cuts a curve into parts."),
-    Row("fillet", "manipulate", "Rounds a corner with an arc."),
-    Row("chamfer", "manipulate", "Cuts a corner off with a line."),
     Row("construct surface tube", "construct", "A tube of a radius along a path."),
     Row("construct surface loft", "construct", "A surface through a row of profiles."),
     Row("construct surface section", "construct", "The curves in which a plane cuts a surface."),

@@ -40,6 +40,7 @@ TEST(Element, TypesHaveTheirWords) {
   EXPECT_EQ(TypeOf(*MakeCurve(geom::Polyline{corners, true})), "shape");
   EXPECT_EQ(TypeOf(*MakeCurve(geom::BsplineCurve{})), "curve");
   EXPECT_EQ(TypeOf(*MakeCurve(geom::Chain{})), "chain");
+  EXPECT_EQ(TypeOf(*MakeRegion({geom::Circle{{}, 1}})), "region");
   EXPECT_EQ(TypeOf(*MakeGroupOf({})), "group");
   EXPECT_EQ(TypeOf(*MakeInstance({}, Moved(0))), "arch");
 }
@@ -60,6 +61,9 @@ TEST(Element, EachChangeOfGeometryChangesTheHash) {
       MakeCurve(geom::Circle{turned, 1}),
       MakeCurve(geom::Arc{{}, 1, 1}),
       MakeCurve(geom::Arc{{}, 1, 2}),
+      MakeRegion({geom::Circle{{}, 1}}),
+      MakeRegion({geom::Circle{{}, 2}}),
+      MakeRegion({geom::Circle{{}, 2}, geom::Circle{{}, 1}}),
       MakeGroupOf({MakePoint(0)}),
       MakeGroupOf({MakePoint(1)}),
       MakeInstance({MakePoint(0)}, Moved(0)),
@@ -70,6 +74,14 @@ TEST(Element, EachChangeOfGeometryChangesTheHash) {
   EXPECT_EQ(hashes.size(), different.size());
   EXPECT_EQ(MakeGroupOf({MakePoint(0), MakePoint(1)})->hash,
             MakeGroupOf({MakePoint(1), MakePoint(0)})->hash);
+}
+
+TEST(Element, OrderAndDirectionOfOutlinesAreNoPartOfARegion) {
+  const geom::Curve outer = geom::Circle{{}, 9}, hole = geom::Circle{{}, 1};
+  const geom::Curve other = geom::Circle{{{3, 0, 0}}, 1};
+  const ElementPtr region = MakeRegion({outer, hole, other});
+  EXPECT_EQ(region->hash, MakeRegion({outer, other, hole})->hash);
+  EXPECT_EQ(region->hash, MakeRegion({outer, geom::Reversed(hole), other})->hash);
 }
 
 TEST(Element, PartsInheritWhatTheyDoNotOwn) {

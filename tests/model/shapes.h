@@ -22,6 +22,11 @@ inline ElementPtr MakeCurve(geom::Curve curve) {
                      PlainAttributes(), nullptr, {});
 }
 
+inline ElementPtr MakeRegion(const std::vector<geom::Curve>& outlines) {
+  return MakeElement(kNoElement, std::make_shared<const geom::Region>(*geom::RegionOf(outlines)),
+                     PlainAttributes(), nullptr, {});
+}
+
 inline ElementPtr MakeGroupOf(std::vector<ElementPtr> members,
                               std::vector<NamedElements> names = {}) {
   Group group;

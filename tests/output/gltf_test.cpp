@@ -6,6 +6,7 @@
 
 #include <cstring>
 
+#include "output/facets.h"
 #include "output/write.h"
 #include "tests/output/models.h"
 
@@ -47,6 +48,22 @@ TEST(Gltf, FarLineKeepsItsMillimetres) {
   const Vec3 centre = Translation(file.nodes[1]);
   EXPECT_LT((centre + Vertex(file, 0, 0) - a).norm(), 1e-8);
   EXPECT_LT((centre + Vertex(file, 0, 1) - b).norm(), 1e-8);
+}
+
+TEST(Gltf, RegionIsAFaceWithItsHole) {
+  const geom::Region region = *geom::RegionOf({geom::Circle{{}, 5}, geom::Circle{{}, 2}});
+  const model::ElementPtr element = ElementOf(std::make_shared<const geom::Region>(region));
+  const auto facets = FacetsOf(*element, {1e-4});
+  ASSERT_TRUE(facets.has_value());
+  double area = 0;
+  for (const auto& t : facets->mesh.triangles) {
+    const Vec3& p = facets->mesh.positions[t[0]];
+    area += 0.5 * (facets->mesh.positions[t[1]] - p).cross(facets->mesh.positions[t[2]] - p).z();
+  }
+  EXPECT_NEAR(area, geom::kPi * 21, 1e-2);
+  EXPECT_EQ(facets->mesh.edges.size(), facets->mesh.positions.size());
+  const tinygltf::Model file = ReadBack(*GlbOf(ModelOf({element}), {}));
+  EXPECT_EQ(file.meshes[0].primitives[0].mode, TINYGLTF_MODE_TRIANGLES);
 }
 
 TEST(Gltf, RootTurnsZUpIntoYUp) {

@@ -37,6 +37,16 @@ TEST(Diff, MeasuresTheLargestDistanceOfAGrownCircle) {
   EXPECT_THAT(Only(difference).largest_m.value(), DoubleNear(0.5, 1e-12));
 }
 
+TEST(Diff, MeasuresARegionThatGrewOrMoved) {
+  const std::string make = "place circle radius=1 xy=0,0 as eye; create region of=[rim, eye]";
+  const Difference grown = DiffOf("place circle radius=5 xy=0,0 as rim\n" + make,
+                                  "place circle radius=6 xy=0,0 as rim\n" + make);
+  EXPECT_THAT(Only(grown).largest_m.value(), DoubleNear(1, 1e-9));
+  const std::string ring = "place circle radius=5 xy=0,0 as rim\n" + make + " as ring\n";
+  const Difference moved = DiffOf(ring, ring + "move of=ring xy=0,0 dl=3");
+  EXPECT_EQ(Only(moved).kind, ElementChange::kMoved);
+}
+
 TEST(Diff, TellsWhatIsTurnedAsMoved) {
   const Difference difference =
       DiffOf("place shape xy=0,0 dl=4 dl=0,3 reset", "place shape xy=0,0 dl=0,4 dl=-3 reset");
