@@ -38,6 +38,11 @@ Spectrum SpectrumOf(const Eigen::MatrixXd& scaled) {
 
 constexpr double kShare = 1e-6;
 
+// In scales: what data alone must tell, and what priors must leave. With priors a number is given
+// as theirs and its deviation is told, however large, until nothing is left of the number: until f
+// is as uncertain as it is long, or the principal point is anywhere in the frame.
+constexpr double kDataLimit = 1, kPriorLimit = 5;
+
 struct Judgement {
   std::vector<bool> determined;
   Eigen::MatrixXd covariance;  // scaled
@@ -45,7 +50,8 @@ struct Judgement {
   Eigen::Index rank = 0;
 };
 
-Judgement JudgementOf(const Spectrum& s, const std::vector<Quantity>& quantities) {
+// `limit`: the deviation, in scales, with which a quantity that has a limit is none any more.
+Judgement JudgementOf(const Spectrum& s, const std::vector<Quantity>& quantities, double limit) {
   const Eigen::Index n = s.values.size();
   Judgement judgement;
   judgement.rank = s.rank;
@@ -57,13 +63,13 @@ Judgement JudgementOf(const Spectrum& s, const std::vector<Quantity>& quantities
   for (Eigen::Index i = 0; i < n; ++i) {
     const bool is_free = s.directions.row(i).tail(n - s.rank).norm() > kShare;
     const bool is_limited = quantities[i].kind == Kind::kLimited;
-    const bool is_weak = is_limited && judgement.covariance(i, i) >= 1;
+    const bool is_weak = is_limited && judgement.covariance(i, i) >= limit * limit;
     judgement.determined[i] = !is_free && !is_weak;
     limit_is_passed = limit_is_passed || (is_limited && !judgement.determined[i]);
   }
-  // A deviation of 1 and more in a direction is a singular value of 1 and less.
+  // A deviation of `limit` and more in a direction is a singular value of its inverse and less.
   Eigen::Index told = s.rank;
-  while (limit_is_passed && told > 0 && s.values[told - 1] <= 1) --told;
+  while (limit_is_passed && told > 0 && limit * s.values[told - 1] <= 1) --told;
   judgement.open = s.directions.rightCols(n - told);
   for (Eigen::Index i = 0; i < n && told < s.rank; ++i) {
     if (quantities[i].kind != Kind::kPosition) continue;
@@ -71,7 +77,7 @@ Judgement JudgementOf(const Spectrum& s, const std::vector<Quantity>& quantities
                          s.values.segment(told, s.rank - told).array())
                             .matrix()
                             .norm();
-    if (weak >= 1) judgement.determined[i] = false;
+    if (weak >= limit) judgement.determined[i] = false;
   }
   return judgement;
 }
@@ -197,8 +203,9 @@ Determination Determine(const Eigen::MatrixXd& jacobian, int data_rows,
   const Eigen::MatrixXd scaled = jacobian * scale.asDiagonal();
   const Spectrum data = SpectrumOf(scaled.topRows(data_rows));
   const bool has_priors = data_rows < jacobian.rows();
-  const Judgement by_data = JudgementOf(data, quantities);
-  const Judgement with_priors = has_priors ? JudgementOf(SpectrumOf(scaled), quantities) : by_data;
+  const Judgement by_data = JudgementOf(data, quantities, kDataLimit);
+  const Judgement with_priors =
+      has_priors ? JudgementOf(SpectrumOf(scaled), quantities, kPriorLimit) : by_data;
   Determination result;
   result.by_data = by_data.determined;
   result.with_priors = with_priors.determined;

@@ -71,6 +71,20 @@ TEST(Determination, ADeviationAboveItsLimitIsNotDetermined) {
   EXPECT_EQ(Determine(j, 3, kThree).by_data, std::vector<bool>({true, true, true}));
 }
 
+// The limits are those of data alone (LANGUAGE.md section 8): a prior gives a number with whatever
+// deviation is left, unless that is as large as the number.
+TEST(Determination, APriorFixesWhatItLeavesUncertain) {
+  Eigen::MatrixXd j = Eigen::MatrixXd::Zero(4, 3);
+  j(0, 0) = 1 / 0.9, j(1, 1) = 1e-3, j(2, 2) = 2, j(3, 1) = 1 / 4.0;
+  const Determination d = Determine(j, 3, kThree);
+  EXPECT_EQ(d.by_data, std::vector<bool>({true, false, true}));
+  EXPECT_EQ(d.with_priors, std::vector<bool>({true, true, true}));
+  EXPECT_NEAR(std::sqrt(d.covariance(1, 1)), 4, 1e-3);
+  EXPECT_EQ(d.undetermined.size(), 1u);
+  j(3, 1) = 1 / 6.0;
+  EXPECT_EQ(Determine(j, 3, kThree).with_priors, std::vector<bool>({true, false, true}));
+}
+
 TEST(Determination, WhatNothingSeesIsFree) {
   Eigen::MatrixXd j = RandomRows(2, 3, 5);
   j.col(2).setZero();

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <complex>
 
-#include "camera/likelihood.h"
 #include "camera/orthocentre.h"
 
 namespace tranos::camera::real {
@@ -93,19 +92,14 @@ Found FoundCamera(Traced traced, Loss loss) {
   found.edges = static_cast<int>(std::ranges::count_if(
       photograph.traces, [](const Trace& t) { return std::holds_alternative<DirectionTrace>(t); }));
   found.edges += traced.numbers.values.size() > 0 ? 1 : 0;
-  if (!estimate) return found;
-  Camera camera = estimate->camera;
-  found.is_determined = !estimate->parameters[kFocal].free();
-  if (!found.is_determined) {
-    SetNoise(photograph, estimate->noise_px);
-    camera = FitCamera(photograph, traced.numbers, camera).camera;
-  }
+  if (!estimate || estimate->parameters[kFocal].free()) return found;
+  const Camera& camera = estimate->camera;
   const double pitch_mm = photograph.frame.pitch_mm().x();
   found.focal_px = camera[kFocal] / pitch_mm;
   found.sigma_px = estimate->parameters[kFocal].sigma / pitch_mm;
   found.noise_px = estimate->noise_px;
   found.camera_from_world = CameraFromWorld(camera.parameters);
-  found.is_found = std::isfinite(found.focal_px);
+  found.is_found = true;
   return found;
 }
 
@@ -116,11 +110,10 @@ std::vector<Found> FoundCameras(const std::vector<Known>& photographs, Loss loss
 }
 
 std::vector<double> FocalErrors(const std::vector<Found>& found, const std::vector<Known>& known,
-                                Undetermined undetermined) {
+                                Loose loose) {
   std::vector<double> errors;
   for (std::size_t i = 0; i < found.size(); ++i) {
-    const bool counts =
-        found[i].is_found && (found[i].is_determined || undetermined == Undetermined::kLikeliest);
+    const bool counts = found[i].is_found && (loose == Loose::kCounts || !found[i].is_loose());
     errors.push_back(counts ? std::abs(found[i].focal_px / known[i].focal_px - 1)
                             : std::numeric_limits<double>::infinity());
   }
@@ -205,13 +198,13 @@ std::optional<Square> SquareByLikelihood(const Known& known) {
 }
 
 double Coverage(const std::vector<Found>& found, const std::vector<Known>& known) {
-  int determined = 0, covered = 0;
+  int all = 0, covered = 0;
   for (std::size_t i = 0; i < found.size(); ++i) {
-    if (!found[i].is_determined) continue;
-    ++determined;
+    if (!found[i].is_found) continue;
+    ++all;
     covered += std::abs(found[i].focal_px - known[i].focal_px) <= 1.96 * found[i].sigma_px;
   }
-  return static_cast<double>(covered) / determined;
+  return static_cast<double>(covered) / all;
 }
 
 double Quantile(std::vector<double> values, double p) {

@@ -26,22 +26,23 @@ void AssumeDefaults(Photograph&);
 
 struct Found {
   std::string name;
-  bool is_found = false;       // nothing below means anything otherwise
-  bool is_determined = false;  // the focal length, by data and priors
+  bool is_found = false;  // a camera with a focal length; nothing below means anything otherwise
   int edges = 0;
   double focal_px = 0;  // in x
-  double sigma_px = 0;  // of it, where it is determined
+  double sigma_px = 0;  // of it
   double noise_px = 0;
   Mat3 camera_from_world = Mat3::Identity();
+
+  // A focal length that data and priors leave uncertain by more than a fifth of it.
+  bool is_loose() const { return sigma_px > 0.2 * focal_px; }
 };
-// With the noise estimated. Edges that `Calibrate` tells are others again are left out. Where it
-// does not determine the focal length, this is the likeliest under the same priors and noise.
+// With the noise estimated. Edges that `Calibrate` tells are others again are left out.
 Found FoundCamera(Traced, Loss = Loss::kHuber);
 std::vector<Found> FoundCameras(const std::vector<Known>&, Loss = Loss::kHuber);
 
-// Relative; infinite where no camera was found, or, on request, its focal length not determined.
-enum class Undetermined { kLikeliest, kInfinite };
-std::vector<double> FocalErrors(const std::vector<Found>&, const std::vector<Known>&, Undetermined);
+// Relative; infinite where no camera was found, or, on request, its focal length is loose.
+enum class Loose { kCounts, kInfinite };
+std::vector<double> FocalErrors(const std::vector<Found>&, const std::vector<Known>&, Loose);
 
 // Degrees between the true rotation and the one found, after the signs of the axes in which they
 // agree best.
@@ -64,7 +65,7 @@ struct Square {
 std::optional<Square> SquareByOrthocentre(const Known&);
 std::optional<Square> SquareByLikelihood(const Known&);
 
-// The share of the determined focal lengths whose stated deviation, times 1.96, covers the truth.
+// The share of the focal lengths found whose stated deviation, times 1.96, covers the truth.
 double Coverage(const std::vector<Found>&, const std::vector<Known>&);
 
 // The value that a share `p` of them does not exceed, between neighbours in proportion.

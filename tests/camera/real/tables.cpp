@@ -20,29 +20,28 @@ double LargestFinite(const std::vector<double>& errors) {
 }
 
 void PrintYork(const std::vector<Known>& known) {
-  fmt::print("| loss | focal length | median | third quartile | 90 % | largest finite |\n");
+  fmt::print("| loss | counted | median | third quartile | 90 % | largest finite |\n");
   fmt::print("|---|---|---|---|---|---|\n");
   constexpr std::pair<Loss, const char*> kLosses[] = {
       {Loss::kNone, "none"}, {Loss::kHuber, "Huber"}, {Loss::kCauchy, "Cauchy"}};
   for (const auto& [loss, name] : kLosses) {
     const std::vector<Found> found = FoundCameras(known, loss);
-    const auto print = [&](const std::string& which, Undetermined undetermined) {
-      const std::vector<double> errors = FocalErrors(found, known, undetermined);
+    const auto print = [&](const std::string& which, Loose loose) {
+      const std::vector<double> errors = FocalErrors(found, known, loose);
       const auto percent = [&](double p) { return 100 * Quantile(errors, p); };
       fmt::print("| {} | {} | {:.2f} % | {:.2f} % | {:.2f} % | {:.1f} % |\n", name, which,
                  percent(0.5), percent(0.75), percent(0.9), 100 * LargestFinite(errors));
     };
-    print("the likeliest", Undetermined::kLikeliest);
-    print(fmt::format("infinite error where not determined ({} of {})",
-                      std::ranges::count(found, false, &Found::is_determined), found.size()),
-          Undetermined::kInfinite);
+    print("every one", Loose::kCounts);
+    print(fmt::format("infinite error where ± is more than 20 % ({} of {})",
+                      std::ranges::count_if(found, &Found::is_loose), found.size()),
+          Loose::kInfinite);
   }
 }
 
 std::string Focal(const Found& f, const Known& known) {
+  if (!f.is_found) return "not found | ∞";
   const double error = 100 * std::abs(f.focal_px / known.focal_px - 1);
-  if (!f.is_determined)
-    return fmt::format("({:.1f}, not determined) | {:.2f} %", f.focal_px, error);
   return fmt::format("{:.1f} ± {:.1f} | {:.2f} %", f.focal_px, f.sigma_px, error);
 }
 
@@ -57,7 +56,7 @@ void PrintEachOfYork(const std::vector<Known>& known) {
 }
 
 void PrintCoverage(const char* name, const std::vector<Known>& known) {
-  fmt::print("\n{}: 1.96 deviations of f cover the truth in {:.0f} % of those determined.\n", name,
+  fmt::print("\n{}: 1.96 deviations of f cover the truth in {:.0f} %.\n", name,
              100 * Coverage(FoundCameras(known), known));
 }
 
@@ -73,7 +72,7 @@ void PrintCastle(const std::vector<Known>& known) {
                found[i].noise_px, Focal(found[i], known[i]), rotation[i], upright[i]);
   }
   fmt::print("| median | | | | {:.2f} % | {:.2f}° | {:.2f}° |\n",
-             100 * Quantile(FocalErrors(found, known, Undetermined::kInfinite), 0.5),
+             100 * Quantile(FocalErrors(found, known, Loose::kCounts), 0.5),
              Quantile(rotation, 0.5), Quantile(upright, 0.5));
   fmt::print("\nTurns from one photograph to another, all {} pairs: median {:.2f}°.\n",
              relative.size(), Quantile(relative, 0.5));
