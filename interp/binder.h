@@ -51,6 +51,7 @@ class Binder {
  public:
   Binder(std::shared_ptr<Sources> sources, const BindOptions& options, const Host& host);
   Bound BindScript(const SyntaxTree& tree);
+  Bound BindFamily(const LibraryFamily& family);
 
  private:
   // A unit of code being written.
@@ -62,6 +63,8 @@ class Binder {
   };
   // Restores what a block changed of the binder.
   struct ScopeGuard;
+  // Puts the binder at the beginning of another file, and back.
+  struct Elsewhere;
 
   // Statements (bind_statement.cpp).
   void BindStatements(const std::vector<NodeId>& statements);
@@ -81,8 +84,15 @@ class Binder {
   std::size_t BindHypotheses(const std::vector<NodeId>& statements, std::size_t first);
   void BindUse(NodeId id);
   void BindUsedFile(NodeId id, const std::string& path);
+  void Import(const Scope& used, const std::string& path, Span span);
   void BindAssert(NodeId id);
   void BindUnknown(NodeId id);
+  // The standard library (bind_library.cpp).
+  const Library& library() const;
+  const Command* LibraryCommand(std::string_view words);
+  Scope& FamilyScope(const LibraryFamily& family);
+  void BindFamilyText(const LibraryFamily& family, Scope* scope);
+  void BindLibraryUse(NodeId string, const std::string& path);
   // Definitions (bind_definition.cpp).
   void Predeclare(const std::vector<NodeId>& statements);
   void PredeclareFunction(NodeId id);
@@ -185,11 +195,15 @@ class Binder {
   // Files used: path → its top-level scope, null while it is being bound.
   std::map<std::string, std::unique_ptr<Scope>> used_;
   std::deque<SyntaxTree> used_trees_;
+  // The families that the script reaches, from the moment they are begun.
+  std::map<const LibraryFamily*, Scope> families_;
+  bool in_library_ = false;
   bool in_used_file_ = false;
   bool at_top_ = true;
   std::string_view whole_words_;  // words that stand for 1 in the key being bound: `centre`
   bool in_definition_ = false;
-  int depth_ = 0;  // of the expression being bound
+  Definition* defining_ = nullptr;  // the one whose body is being bound
+  int depth_ = 0;                   // of the expression being bound
   std::set<std::string> declared_parameters_;
   std::vector<NodeId> hypotheses_;  // the names of all alternatives
   std::unordered_map<const Command*, std::uint32_t> uses_;
