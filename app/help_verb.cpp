@@ -11,8 +11,8 @@ namespace {
 
 constexpr std::string_view kMore =
     "`tranos help place arc` tells of one command, `tranos help place` of those that begin so.\n"
-    "Further lists: `tranos help statements`, `points`, `settings`, `functions`; `tranos lib` has "
-    "the library's elements.\n"
+    "Further lists: `tranos help statements`, `points`, `settings`, `functions`.\n"
+    "`tranos lib` lists the elements of the library.\n"
     "The language is told in docs/language.md, all of the above in docs/reference.md.\n";
 
 std::string Lower(std::string text) {

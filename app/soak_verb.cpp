@@ -31,7 +31,8 @@ struct Job {
   std::vector<std::string> failures = {};  // a text of lines each
 };
 
-// The facts' script, its placement at the settings of this line.
+// The facts' script, its placement at the settings of this line; without facts the line alone. ""
+// where facts do not place the element.
 std::string ScriptFor(const ElementLibrary& elements, const Definition& element,
                       const std::string& line) {
   const std::string_view facts = FactsTextOf(elements, element.words);
@@ -45,7 +46,8 @@ std::string ScriptFor(const ElementLibrary& elements, const Definition& element,
     placed |= places;
     script += (places ? line : std::string(own)) + "\n";
   }
-  return placed ? script : line + "\n";
+  if (facts.empty()) return line + "\n";
+  return placed ? script : "";
 }
 
 // What a plan symbol may not be, as a sentence; "" for one that keeps to the drafting convention.
@@ -71,8 +73,9 @@ std::string PlanProblem(const model::Model& model) {
 std::string ProblemOf(const ElementLibrary& elements, const Job& job, const std::string& line) {
   interp::BindOptions bind;
   bind.library = elements.library;
-  const interp::ScriptResult result =
-      interp::RunScript("facts", ScriptFor(elements, *job.element, line), bind, {}, {});
+  const std::string script = ScriptFor(elements, *job.element, line);
+  if (script.empty()) return "no line of its facts places it and ends with `as it`\n";
+  const interp::ScriptResult result = interp::RunScript("facts", script, bind, {}, {});
   for (const interp::Diagnostic& diagnostic : result.diagnostics.list())
     return interp::RenderText(diagnostic, *result.sources, false);
   for (const interp::AssertResult& assertion : result.outcome.asserts) {
@@ -103,10 +106,10 @@ void Do(const ElementLibrary& elements, Job* job, const SoakOptions& options) {
   }
 }
 
-bool IsAsked(const SoakOptions& options, const std::string& family, const Definition& element) {
+bool IsAsked(const SoakOptions& options, const std::string& family, std::string_view words) {
   return options.names.empty() ||
          std::any_of(options.names.begin(), options.names.end(), [&](const std::string& name) {
-           return name == family || name == FileNameOf(element.words);
+           return name == family || name == FileNameOf(words);
          });
 }
 
@@ -154,11 +157,17 @@ int Soak(const ElementLibrary& elements, const SoakOptions& options) {
   std::vector<BoundFamily> families;
   std::vector<Job> jobs;
   std::size_t failed = 0;
+  const std::vector<std::string> words = elements.library->Words();
   for (const interp::LibraryFamily& family : elements.library->families()) {
+    if (std::none_of(words.begin(), words.end(), [&](const std::string& each) {
+          return elements.library->Defining(each) == &family && IsAsked(options, family.name, each);
+        })) {
+      continue;
+    }
     families.push_back(BindLibraryFamily(elements, family));
     if (!TellOfDeclarations(families.back(), &failed)) return kScriptIsWrong;
     for (const Definition* element : families.back().elements) {
-      if (!IsAsked(options, family.name, *element)) continue;
+      if (!IsAsked(options, family.name, element->words)) continue;
       for (const std::string& detail : DetailsOf(*element)) jobs.push_back({element, detail});
     }
   }

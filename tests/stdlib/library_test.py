@@ -18,6 +18,8 @@ POLE = """define place pole
   lean : number = 0.5 in 0..1 "of its height"
   sides : count = 4 in 3, 4, 6 "not used"
   thick : boolean = false "not used, too"
+  turn : angle = 10deg in 0deg..90deg "nor this"
+  steps : list of length = [1m, height] in 0.1m..9m "nor these"
 {
   place line xy=0,0,0 dl=lean*height,0,2*height
 }
@@ -102,13 +104,23 @@ class Soak(harness.ProgramTest):
 
     def test_good(self):
         ran = self.soak(POLE, "place pole xy=0,0,0 as it\nassert it.bbox.max.z within it.height*2 +- 1mm\n")
-        self.assertEqual((ran.status, ran.out, ran.err), (0, "41 settings of 1 elements and details: 0 failed\n", ""))
+        self.assertEqual((ran.status, ran.out, ran.err), (0, "45 settings of 1 elements and details: 0 failed\n", ""))
 
     def test_fails_at_the_end_of_a_range(self):
         ran = self.soak(POLE.replace("0.1m..4m", "0m..4m"))
         self.assertEqual(ran.status, 1)
         self.assertIn("place pole height=0m", ran.err)
-        self.assertIn("stdlib/poles.trn:8", ran.err)
+        self.assertIn("stdlib/poles.trn:10", ran.err)
+
+    def test_facts_that_do_not_place_it(self):
+        ran = self.soak(POLE, "place pole xy=0,0,0\nassert 1 < 2\n")
+        self.assertEqual(ran.status, 1)
+        self.assertIn("no line of its facts places it and ends with `as it`", ran.err)
+
+    def test_another_family_does_not_matter(self):
+        self.write("lib/wrecks.trn", "define place wreck {")
+        self.assertEqual(self.soak(POLE, "", "poles").status, 0)
+        self.assertEqual(self.soak(POLE, "").status, 1)
 
     def test_what_it_tells_can_be_run(self):
         ran = self.soak(POLE, "place pole xy=0,0,0 as it\nassert it.bbox.max.z < 6m \"low\"\n")
