@@ -101,14 +101,17 @@ Gallery MakeGallery() {
   return gallery;
 }
 
-std::string PictureOf(const std::string& words, int threads) {
+tl::expected<std::string, std::string> PictureOf(const std::string& words, int threads) {
   std::string problem;
   model::RenderRequest request;
   request.model = Placed(LineOf(words), &problem).outcome.state.model;
+  if (!problem.empty()) return tl::make_unexpected(problem);
   request.view = {model::RenderMode::kPhong, true, true, "iso"};
   request.width_px = kWidth_px;
   request.height_px = kHeight_px;
-  return output::PictureFileOf(request, threads).value_or("");
+  auto bytes = output::PictureFileOf(request, threads);
+  if (!bytes) return tl::make_unexpected(bytes.error().message);
+  return *std::move(bytes);
 }
 
 }  // namespace tranos::app

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <tl/expected.hpp>
 #include <utility>
 #include <vector>
 
@@ -20,7 +21,7 @@ struct Gallery {
 };
 // Everything but the rendered pictures, which takes a moment: the page records what each shows.
 Gallery MakeGallery();
-// The PNG of an element at its defaults; an empty text where it cannot be made.
-std::string PictureOf(const std::string& words, int threads);
+// The PNG of an element at its defaults, or why there is none.
+tl::expected<std::string, std::string> PictureOf(const std::string& words, int threads);
 
 }  // namespace tranos::app

@@ -59,8 +59,12 @@ int GalleryVerb(const GalleryOptions& options) {
   for (const GalleryElement& element : gallery.elements) {
     if (!Put(options.folder + "/" + element.plan_file, element.plan)) return kFileFailed;
     if (!IsAsked(options, element)) continue;
-    if (!Put(options.folder + "/" + element.picture_file, PictureOf(element.words, threads)))
-      return kFileFailed;
+    const auto picture = PictureOf(element.words, threads);
+    if (!picture) {
+      PrintFailure("`" + element.words + "` cannot be drawn: " + picture.error());
+      return kScriptIsWrong;
+    }
+    if (!Put(options.folder + "/" + element.picture_file, *picture)) return kFileFailed;
     PrintOut(interp::Printable(options.folder + "/" + element.picture_file) + "\n");
   }
   return Put(options.folder + "/gallery.md", gallery.page) ? kFine : kFileFailed;

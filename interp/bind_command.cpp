@@ -29,6 +29,8 @@ const Command* Binder::LookUpCommand(const std::vector<NodeId>& words, std::size
     const std::string joined = Join(lower, count);
     *used = count;
     for (const Scope* scope = scope_; scope; scope = scope->parent) {
+      if (in_library_ && !scope->parent)
+        break;  // a family's elements are bound when reached, below
       const auto found = scope->definitions.find(joined);
       if (found != scope->definitions.end()) return &program_->definitions[found->second].row;
     }

@@ -1,17 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The standard library: a family is parsed and bound when its first element is reached.
+// The standard library: a family is parsed when its first element is reached, and an element bound
+// when it is.
 #include "interp/binder.h"
 
 namespace tranos::interp {
 
 struct Binder::Elsewhere {
-  explicit Elsewhere(Binder* b)
+  Elsewhere(Binder* b, Family* family)
       : binder(b),
-        tree(std::exchange(b->tree_, nullptr)),
-        scope(std::exchange(b->scope_, nullptr)),
-        builder(std::exchange(b->builder_, nullptr)),
+        // Families leave no code in the script's unit.
+        top{0, nullptr, b->program_->units[0].registers, b->program_->units[0].registers},
+        tree(std::exchange(b->tree_, family->tree)),
+        scope(std::exchange(b->scope_, &family->scope)),
+        builder(std::exchange(b->builder_, &top)),
         statement(b->statement_),
-        predeclared(std::exchange(b->predeclared_, {})),
+        predeclared(std::exchange(b->predeclared_, family->predeclared)),
         let_registers(std::exchange(b->let_registers_, {})),
         whole_words(std::exchange(b->whole_words_, {})),
         depth(std::exchange(b->depth_, 0)),
@@ -37,6 +40,7 @@ struct Binder::Elsewhere {
   Elsewhere& operator=(const Elsewhere&) = delete;
 
   Binder* binder;
+  Builder top;
   const SyntaxTree* tree;
   Scope* scope;
   Builder* builder;
@@ -57,21 +61,22 @@ const Command* Binder::LibraryCommand(std::string_view words) {
   if (!words.starts_with("place ")) return nullptr;
   const LibraryFamily* family = library().Defining(words);
   if (!family) return nullptr;
-  const Scope& scope = FamilyScope(*family);
-  const auto found = scope.definitions.find(words);
-  return found == scope.definitions.end() ? nullptr : &program_->definitions[found->second].row;
+  Family& bound = FamilyOf(*family);
+  const auto found = bound.scope.definitions.find(words);
+  if (found == bound.scope.definitions.end()) return nullptr;
+  BindElement(&bound, found->second);
+  return &program_->definitions[found->second].row;
 }
 
-// Families may use one another in circles: what one defines is known before its bodies are bound.
-Scope& Binder::FamilyScope(const LibraryFamily& family) {
+Binder::Family& Binder::FamilyOf(const LibraryFamily& family) {
   const auto [found, is_new] = families_.try_emplace(&family);
-  if (is_new) BindFamilyText(family, &found->second);
+  if (is_new) DeclareFamily(family, &found->second);
   return found->second;
 }
 
-void Binder::BindFamilyText(const LibraryFamily& family, Scope* scope) {
-  scope->opens_names = true;
-  scope->closed_to_commands = true;
+void Binder::DeclareFamily(const LibraryFamily& family, Family* bound) {
+  bound->scope.opens_names = true;
+  bound->scope.closed_to_commands = true;
   const auto file = static_cast<std::uint32_t>(program_->sources->files.size());
   program_->sources->files.push_back(MakeSource(family.path(), std::string(family.text)));
   program_->sources->files.back().of_library = true;
@@ -79,14 +84,26 @@ void Binder::BindFamilyText(const LibraryFamily& family, Scope* scope) {
   used_trees_.push_back(Parse(*program_->sources, file, {options_.depth}, &parsing));
   diagnostics_.Append(parsing);
   if (parsing.has_errors()) return;
-  // Functions and definitions leave no code in the script's unit.
-  Builder builder{0, nullptr, program_->units[0].registers, program_->units[0].registers};
-  const SyntaxTree& family_tree = used_trees_.back();
-  const Elsewhere elsewhere(this);
-  tree_ = &family_tree;
-  scope_ = scope;
-  builder_ = &builder;
-  BindStatements(tree_->Children(tree_->root));
+  bound->tree = &used_trees_.back();
+  const Elsewhere elsewhere(this, bound);
+  const std::vector<NodeId> statements = Kids(tree_->root);
+  Predeclare(statements);
+  bound->predeclared = predeclared_;
+  for (const auto& [node, index] : predeclared_) {
+    if (KindOf(node) == NodeKind::kDefine) bound->unbound.emplace(index, node);
+  }
+  for (const NodeId statement : statements) {
+    if (KindOf(statement) != NodeKind::kDefine) BindStatement(statement);
+  }
+}
+
+// Elements may place one another in circles: each is bound once, and what a family defines is
+// declared before.
+void Binder::BindElement(Family* family, std::uint32_t definition) {
+  const auto node = family->unbound.extract(definition);
+  if (node.empty()) return;
+  const Elsewhere elsewhere(this, family);
+  BindStatement(node.mapped());
 }
 
 // `use "profiles.trn"` in a family: that family's functions are known here, too.
@@ -97,7 +114,7 @@ void Binder::BindLibraryUse(NodeId string, const std::string& path) {
     return Error(Code::kCannotRead, SpanOf(string),
                  "the library has no family `" + Printable(path) + "`");
   }
-  Import(FamilyScope(*family), family->path(), SpanOf(string));
+  Import(FamilyOf(*family).scope, family->path(), SpanOf(string));
 }
 
 }  // namespace tranos::interp

@@ -95,7 +95,8 @@ Bound Binder::BindScript(const SyntaxTree& script) {
 Bound Binder::BindFamily(const LibraryFamily& family) {
   Builder builder{0, nullptr, 0, 0};
   builder_ = &builder;
-  FamilyScope(family);
+  Family& bound = FamilyOf(family);
+  while (!bound.unbound.empty()) BindElement(&bound, bound.unbound.begin()->first);
   Emit({Op::kHalt}, {});
   return {program_, std::move(diagnostics_), {}};
 }

@@ -63,7 +63,14 @@ class Binder {
   };
   // Restores what a block changed of the binder.
   struct ScopeGuard;
-  // Puts the binder at the beginning of another file, and back.
+  // A family of the library: all is declared, and an element's body bound when it is reached.
+  struct Family {
+    Scope scope;
+    const SyntaxTree* tree = nullptr;
+    std::map<NodeId, std::uint32_t> predeclared;
+    std::map<std::uint32_t, NodeId> unbound;  // definition → where it stands
+  };
+  // Puts the binder at the top of a family, and back.
   struct Elsewhere;
 
   // Statements (bind_statement.cpp).
@@ -90,8 +97,9 @@ class Binder {
   // The standard library (bind_library.cpp).
   const Library& library() const;
   const Command* LibraryCommand(std::string_view words);
-  Scope& FamilyScope(const LibraryFamily& family);
-  void BindFamilyText(const LibraryFamily& family, Scope* scope);
+  Family& FamilyOf(const LibraryFamily& family);
+  void DeclareFamily(const LibraryFamily& family, Family* bound);
+  void BindElement(Family* family, std::uint32_t definition);
   void BindLibraryUse(NodeId string, const std::string& path);
   // Definitions (bind_definition.cpp).
   void Predeclare(const std::vector<NodeId>& statements);
@@ -195,8 +203,7 @@ class Binder {
   // Files used: path → its top-level scope, null while it is being bound.
   std::map<std::string, std::unique_ptr<Scope>> used_;
   std::deque<SyntaxTree> used_trees_;
-  // The families that the script reaches, from the moment they are begun.
-  std::map<const LibraryFamily*, Scope> families_;
+  std::map<const LibraryFamily*, Family> families_;  // that the script reaches
   bool in_library_ = false;
   bool in_used_file_ = false;
   bool at_top_ = true;

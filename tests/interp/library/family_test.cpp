@@ -48,6 +48,10 @@ class FamilyTest : public ::testing::Test {
 
   Library library_{{{"arches", kArches},
                     {"broken", "define place wreck {"},
+                    {"mixed",
+                     "define place good { place line xy=0,0,0 dl=1 }\n"
+                     "define place bad { place line xy=0,0,0 dl=nothing }\n"
+                     "define place worse { place good xy=0,0,0; place bad xy=0,0,0 }"},
                     {"letting", "let a = 1\ndefine place letter { place line xy=0,0,0 dl=a }"},
                     {"sticks", kSticks}}};
 };
@@ -65,8 +69,7 @@ TEST_F(FamilyTest, AnElementIsReachedByItsWords) {
           "assert a.bbox.max.x == 5m and a.crown.at.z == 2m and a.span == 4m");
   EXPECT_TRUE(result.diagnostics.list().empty());
   EXPECT_TRUE(result.outcome.asserts.at(0).passed);
-  // With the families that its family reaches.
-  EXPECT_EQ(Paths(result), (Strings{"script.trn", "stdlib/arches.trn", "stdlib/sticks.trn"}));
+  EXPECT_EQ(Paths(result), (Strings{"script.trn", "stdlib/arches.trn"}));
   EXPECT_TRUE(result.sources->files[1].of_library);
   EXPECT_FALSE(result.sources->files[0].of_library);
 }
@@ -82,6 +85,13 @@ TEST_F(FamilyTest, FamiliesUseOneAnotherInCircles) {
   EXPECT_FALSE(Run("place arch on sticks xy=0,0").diagnostics.has_errors());
   EXPECT_FALSE(Run("place stick like an arch xy=0,0 as s\nassert s.bbox.max.z == 1m")
                    .diagnostics.has_errors());
+}
+
+// A body that nothing reaches is not bound: its mistake is not this script's.
+TEST_F(FamilyTest, AnElementIsBoundWhenItIsReached) {
+  EXPECT_TRUE(Run("place good xy=0,0").diagnostics.list().empty());
+  EXPECT_EQ(Only(Run("place bad xy=0,0")).code, Code::kUnknownName);
+  EXPECT_EQ(Only(Run("place worse xy=0,0")).code, Code::kUnknownName);
 }
 
 TEST_F(FamilyTest, TheUsersOwnDefinitionOfTheSameWordsIsMeant) {
@@ -166,8 +176,7 @@ TEST_F(FamilyTest, AFileOfTheUsersMayHaveAFamilysName) {
       "script.trn", "use \"stdlib/arches.trn\"\nplace tree xy=0,0\nplace arch plain xy=0,0",
       options, {}, host);
   EXPECT_TRUE(result.diagnostics.list().empty());
-  ASSERT_EQ(Paths(result),
-            (Strings{"script.trn", "stdlib/arches.trn", "stdlib/arches.trn", "stdlib/sticks.trn"}));
+  ASSERT_EQ(Paths(result), (Strings{"script.trn", "stdlib/arches.trn", "stdlib/arches.trn"}));
   EXPECT_FALSE(result.sources->files[1].of_library);
   EXPECT_TRUE(result.sources->files[2].of_library);
 }
