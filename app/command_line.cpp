@@ -75,11 +75,14 @@ struct Choices {
   bool check_json = false;
   FmtOptions fmt;
   std::vector<std::string> help;
+  std::string family;
   std::string code;
   ScriptOptions inspect;
   ReplayOptions replay;
   DiffOptions diff;
   DocsOptions docs;
+  GalleryOptions gallery;
+  SoakOptions soak;
 };
 
 void AddScriptVerbs(CLI::App* app, Choices* choices, int* status) {
@@ -131,6 +134,38 @@ void AddComparingVerbs(CLI::App* app, Choices* choices, int* status) {
   verb->callback([&diff, status] { *status = DiffVerb(diff); });
 }
 
+// For those who write the library.
+void AddLibraryVerbs(CLI::App* app, Choices* choices, int* status) {
+  GalleryOptions& gallery = choices->gallery;
+  CLI::App* verb = app->add_subcommand("gallery", "Shows the library's elements on a page.");
+  verb->add_option("names", gallery.names,
+                   "whose pictures are made, such as dome_onion; all, if none")
+      ->type_name("NAME");
+  verb->add_option("-o,--output", gallery.folder, "the folder of gallery.md and gallery/")
+      ->type_name("DIR")
+      ->capture_default_str();
+  verb->add_flag("--check", gallery.check, "only says whether it is up to date");
+  verb->callback([&gallery, status] { *status = GalleryVerb(gallery); });
+
+  SoakOptions& soak = choices->soak;
+  verb = app->add_subcommand("soak", "Builds the library's elements all over their ranges.");
+  verb->add_option("names", soak.names,
+                   "families or elements, such as domes or dome_onion; all, if none")
+      ->type_name("NAME");
+  verb->add_option("--settings", soak.settings, "random settings of each element and detail")
+      ->type_name("N")
+      ->check(Quiet(CLI::Range(0, 1000000)))
+      ->capture_default_str();
+  verb->add_option("--library", soak.folder,
+                   "the library's folder, read now; as built, if not given")
+      ->type_name("DIR")
+      ->check(Quiet(CLI::ExistingDirectory));
+  verb->add_option("--seed", soak.seed, "another seed gives other settings")
+      ->type_name("N")
+      ->capture_default_str();
+  verb->callback([&soak, status] { *status = SoakVerb(soak); });
+}
+
 void AddTellingVerbs(CLI::App* app, Choices* choices, int* status) {
   CLI::App* verb =
       app->add_subcommand("help", "Tells of a command, function or setting of the language.");
@@ -138,6 +173,10 @@ void AddTellingVerbs(CLI::App* app, Choices* choices, int* status) {
                    "its words, as in `tranos help place arc`; none lists all")
       ->type_name("WORD");
   verb->callback([choices, status] { *status = HelpVerb(choices->help); });
+
+  verb = app->add_subcommand("lib", "Lists the elements of the library, by family.");
+  verb->add_option("family", choices->family, "one family, such as domes")->type_name("FAMILY");
+  verb->callback([choices, status] { *status = LibVerb(choices->family); });
 
   verb = app->add_subcommand("explain", "Tells more of an error or a warning.");
   verb->add_option("code", choices->code, "its code, such as E0203")->required()->type_name("CODE");
@@ -192,6 +231,7 @@ int RunCommandLine(int argc, char** argv) {
   AddScriptVerbs(&app, &choices, &status);
   AddComparingVerbs(&app, &choices, &status);
   AddTellingVerbs(&app, &choices, &status);
+  AddLibraryVerbs(&app, &choices, &status);
   for (CLI::App* verb : app.get_subcommands({}))
     verb->group("Verbs, each with a --help of its own");
   app.footer(kExamples);

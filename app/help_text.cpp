@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "app/command_text.h"
+#include "app/wrap.h"
 #include "interp/functions.h"
 #include "interp/program.h"
 
@@ -14,48 +15,10 @@ namespace {
 
 using interp::Command;
 
-constexpr std::size_t kWidth = 100;   // columns of a line
 constexpr std::size_t kWords = 26;    // columns of a command's words in a list
 constexpr std::size_t kExamples = 2;  // shown of a command
 
 std::string Text(std::string_view text) { return std::string(text); }
-
-std::size_t Columns(std::string_view text) {
-  return static_cast<std::size_t>(
-      std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));
-}
-
-// Broken into lines that begin at a column; the first goes on from `head`.
-std::string Wrap(std::string head, std::size_t indent, std::string_view text) {
-  std::string out;
-  std::string line = std::move(head);
-  if (Columns(line) >= indent && !line.empty() && indent > 0) {
-    out = line + "\n";
-    line.clear();
-  }
-  line.append(indent - std::min(indent, Columns(line)), ' ');
-  bool first = true;
-  std::string word;
-  const auto flush = [&] {
-    if (word.empty()) return;
-    if (!first && Columns(line) + 1 + Columns(word) > kWidth) {
-      out += line + "\n";
-      line = std::string(indent, ' ');
-      first = true;
-    }
-    line += (first ? "" : " ") + word;
-    first = false;
-    word.clear();
-  };
-  for (char c : text) {
-    if (c == ' ')
-      flush();
-    else
-      word += c;
-  }
-  flush();
-  return out + line + "\n";
-}
 
 std::string Row(std::string_view name, std::size_t width, std::string_view text) {
   return Wrap("  " + Text(name), width + 4, text);

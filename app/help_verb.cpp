@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/console.h"
 #include "app/help_text.h"
+#include "app/library_help.h"
 #include "app/status.h"
 #include "app/verbs.h"
 
@@ -11,6 +12,7 @@ namespace {
 constexpr std::string_view kMore =
     "`tranos help place arc` tells of one command, `tranos help place` of those that begin so.\n"
     "Further lists: `tranos help statements`, `points`, `settings`, `functions`.\n"
+    "`tranos lib` lists the elements of the library.\n"
     "The language is told in docs/language.md, all of the above in docs/reference.md.\n";
 
 std::string Lower(std::string text) {
@@ -30,7 +32,8 @@ std::string HelpOn(const std::string& words) {
   if (words == "functions") return FunctionList();
   if (const interp::Command* command = interp::FindCommand(words)) return HelpOf(*command);
   if (std::string known = HelpOfWord(words); !known.empty()) return known;
-  return CommandsFrom(words);
+  if (std::string known = HelpOfElement(words); !known.empty()) return known;
+  return CommandsFrom(words) + ElementsFrom(words);
 }
 
 }  // namespace
@@ -46,8 +49,9 @@ int HelpVerb(const std::vector<std::string>& words) {
   }
   std::vector<std::string> commands;
   for (const interp::Command& command : interp::AllCommands()) commands.emplace_back(command.words);
+  for (const std::string& element : interp::StandardLibrary().Words()) commands.push_back(element);
   const auto meant = interp::DidYouMean(lower, commands);
-  const std::string about = meant ? "" : CommandsAbout(lower);
+  const std::string about = meant ? "" : CommandsAbout(lower) + ElementsAbout(lower);
   PrintFailure("there is no command `" + interp::Printable(joined) + "`" +
                (meant           ? ": did you mean `" + *meant + "`?"
                 : about.empty() ? ": `tranos help` lists those there are"

@@ -106,7 +106,7 @@ void NamePathsFromHere(const ScriptOptions& options, ScriptRun* run) {
   if (!run->result.sources || options.script.find('/') == std::string::npos) return;
   const std::string folder = options.script.substr(0, options.script.rfind('/') + 1);
   for (interp::SourceText& source : run->result.sources->files) {
-    if (!source.path.starts_with('/')) source.path = folder + source.path;
+    if (!source.path.starts_with('/') && !source.of_library) source.path = folder + source.path;
   }
 }
 

@@ -38,6 +38,7 @@ struct FmtOptions {
 int FmtVerb(const FmtOptions& options);
 
 int HelpVerb(const std::vector<std::string>& words);
+int LibVerb(const std::string& family);  // "" for all
 int ExplainVerb(const std::string& code);
 int InspectVerb(const ScriptOptions& options);
 
@@ -57,5 +58,20 @@ struct DocsOptions {
   bool check = false;  // only say whether the file is up to date
 };
 int DocsVerb(const DocsOptions& options);
+
+struct GalleryOptions {
+  std::string folder = "docs";
+  std::vector<std::string> names;  // of the elements whose pictures are made; none: all
+  bool check = false;              // only say whether all is up to date
+};
+int GalleryVerb(const GalleryOptions& options);
+
+struct SoakOptions {
+  std::vector<std::string> names;  // families or elements; none: all
+  std::string folder;  // of the library's files; "": those that the program was built of
+  int settings = 200;  // random ones of each element and detail, besides the corners
+  std::uint64_t seed = 1;
+};
+int SoakVerb(const SoakOptions& options);
 
 }  // namespace tranos::app

@@ -17,7 +17,8 @@ std::string Join(const std::vector<std::string>& words, std::size_t count) {
 
 }  // namespace
 
-// Longest words first; a definition in a block around comes before a built-in command.
+// Longest words first; a definition in a block around comes before a built-in command and before
+// one of the library.
 const Command* Binder::LookUpCommand(const std::vector<NodeId>& words, std::size_t* used) {
   std::vector<std::string> lower;
   for (NodeId word : words) {
@@ -28,10 +29,13 @@ const Command* Binder::LookUpCommand(const std::vector<NodeId>& words, std::size
     const std::string joined = Join(lower, count);
     *used = count;
     for (const Scope* scope = scope_; scope; scope = scope->parent) {
+      if (in_library_ && !scope->parent)
+        break;  // a family's elements are bound when reached, below
       const auto found = scope->definitions.find(joined);
       if (found != scope->definitions.end()) return &program_->definitions[found->second].row;
     }
     if (const Command* row = FindCommand(joined)) return row;
+    if (const Command* row = LibraryCommand(joined)) return row;
   }
   return nullptr;
 }
@@ -44,6 +48,7 @@ void Binder::UnknownCommand(const std::vector<NodeId>& words) {
   for (const Scope* scope = scope_; scope; scope = scope->parent) {
     for (const auto& [definition, index] : scope->definitions) known.push_back(definition);
   }
+  for (const std::string& element : library().Words()) known.push_back(element);
   const std::string joined = Join(lower, lower.size());
   // A unique beginning is offered, and so is the nearest spelling.
   std::vector<std::string> begun;

@@ -137,6 +137,7 @@ void Binder::PredeclareDefinition(NodeId id) {
     definition.words += (definition.words.empty() ? "" : " ") + Lower(word);
   }
   definition.span = SpanOf(kids[0]);
+  definition.whole = SpanOf(id);
   if (definition.words == "place") {
     Error(Code::kReservedName, definition.span,
           "a definition's words are `place` and what is placed", "", "define place dome");
@@ -230,7 +231,7 @@ void Binder::EmitRangeCheck(NodeId param, const DefinedParameter& declared, std:
 void Binder::BindDefine(NodeId id) {
   const auto found = predeclared_.find(id);
   if (found == predeclared_.end()) return;
-  const Definition& definition = program_->definitions[found->second];
+  Definition& definition = program_->definitions[found->second];
   const auto kids = Kids(id);
   Builder builder{definition.unit, builder_, 0, 0};
   Scope scope;
@@ -242,6 +243,7 @@ void Binder::BindDefine(NodeId id) {
   Scope* const outer_scope = std::exchange(scope_, &scope);
   const bool was_top = std::exchange(at_top_, false);
   const bool was_in = std::exchange(in_definition_, true);
+  Definition* const outer_definition = std::exchange(defining_, &definition);
   for (std::size_t i = 0; i < definition.parameters.size(); ++i) NewRegister();
   std::size_t number = 0;
   for (NodeId kid : kids) {
@@ -267,6 +269,7 @@ void Binder::BindDefine(NodeId id) {
   Emit({Op::kHalt}, end);
   at_top_ = was_top;
   in_definition_ = was_in;
+  defining_ = outer_definition;
   builder_ = outer_builder;
   scope_ = outer_scope;
 }
@@ -360,6 +363,7 @@ void Binder::BindInterface(NodeId id) {
                  "outside of one here");
   }
   DeclareInterface(kids[0]);
+  DefinedInterface declared{Text(kids[0]), {}};
   const auto count = static_cast<std::uint32_t>(kids.size() - 1);
   const std::uint32_t first = builder_->next_register;
   for (std::uint32_t i = 0; i < 2 * count; ++i) NewRegister();
@@ -372,7 +376,10 @@ void Binder::BindInterface(NodeId id) {
     const bool is_direction = lower == "axis" || lower == "dir";
     has_place |= lower == "at";
     const bool is_frame = is_direction || lower == "at";
-    if (!is_frame) CheckName(key, SpanOf(Kids(kids[i + 1])[0]));
+    if (!is_frame) {
+      CheckName(key, SpanOf(Kids(kids[i + 1])[0]));
+      declared.measures.push_back(key);
+    }
     if (lower == "name" || lower == "plane") {
       Error(Code::kReservedName, SpanOf(Kids(kids[i + 1])[0]),
             "an interface has a `" + lower + "` of its own", "",
@@ -387,7 +394,13 @@ void Binder::BindInterface(NodeId id) {
     Error(Code::kMissingValue, SpanOf(id), "an interface needs its place", "",
           "interface NAME at=[x, y, z]");
   }
-  Emit({Op::kInterface, 0, 0, AddText(Text(kids[0])), first, count}, SpanOf(kids[0]));
+  Emit({Op::kInterface, 0, 0, AddText(declared.name), first, count}, SpanOf(kids[0]));
+  // Branches may each have an interface of one name.
+  std::vector<DefinedInterface>& known = defining_->interfaces;
+  if (std::none_of(known.begin(), known.end(),
+                   [&](const DefinedInterface& other) { return other.name == declared.name; })) {
+    known.push_back(std::move(declared));
+  }
 }
 
 }  // namespace tranos::interp

@@ -54,6 +54,11 @@ void Binder::BindStatement(NodeId id) {
           "this statement would be run", "move it into the script");
     return;
   }
+  if (in_library_ && at_top_ && (kind == NodeKind::kLet || kind == NodeKind::kUnit)) {
+    Error(Code::kMisplaced, SpanOf(id), "a family holds functions and definitions alone", "",
+          "a function without parameters gives a constant: function golden() = (1 + sqrt(5))/2");
+    return;
+  }
   switch (kind) {
     case NodeKind::kLet:
       return BindLet(id);  // keeps its register
@@ -518,6 +523,7 @@ void Binder::BindUse(NodeId id) {
   // Paths are relative to the file that names them.
   const std::string& from = program_->sources->files[tree_->file].path;
   std::string path = written->string();
+  if (in_library_) return BindLibraryUse(string, path);
   const std::size_t slash = from.rfind('/');
   if (in_used_file_ && slash != std::string::npos && !path.starts_with('/'))
     path = from.substr(0, slash + 1) + path;
@@ -571,21 +577,25 @@ void Binder::BindUsedFile(NodeId id, const std::string& path) {
     }
     found = used_.insert_or_assign(path, std::move(scope)).first;
   }
-  for (const auto& [name, symbol] : found->second->symbols) {
+  Import(*found->second, path, SpanOf(string));
+}
+
+// Makes what a used file binds known here.
+void Binder::Import(const Scope& used, const std::string& path, Span span) {
+  for (const auto& [name, symbol] : used.symbols) {
     const auto known = scope_->symbols.find(name);
     if (known != scope_->symbols.end() && !(known->second.declared == symbol.declared)) {
-      Error(Code::kBoundTwice, SpanOf(string),
-            "`" + name + "` of `" + Printable(path) + "` is bound already", "",
-            "rename one of the two",
+      Error(Code::kBoundTwice, span, "`" + name + "` of `" + Printable(path) + "` is bound already",
+            "", "rename one of the two",
             {{known->second.declared, "bound here"}, {symbol.declared, "and here"}});
       continue;
     }
     scope_->symbols.emplace(name, symbol);
   }
-  for (const auto& [words, definition] : found->second->definitions) {
+  for (const auto& [words, definition] : used.definitions) {
     const auto known = scope_->definitions.find(words);
     if (known != scope_->definitions.end() && known->second != definition) {
-      Error(Code::kBoundTwice, SpanOf(string),
+      Error(Code::kBoundTwice, span,
             "`" + words + "` of `" + Printable(path) + "` is defined already");
       continue;
     }

@@ -92,6 +92,15 @@ Bound Binder::BindScript(const SyntaxTree& script) {
   return bound;
 }
 
+Bound Binder::BindFamily(const LibraryFamily& family) {
+  Builder builder{0, nullptr, 0, 0};
+  builder_ = &builder;
+  Family& bound = FamilyOf(family);
+  while (!bound.unbound.empty()) BindElement(&bound, bound.unbound.begin()->first);
+  Emit({Op::kHalt}, {});
+  return {program_, std::move(diagnostics_), {}};
+}
+
 Diagnostic Binder::UnknownHypothesis(const SyntaxTree& script) const {
   const std::string asked = "`" + Printable(options_.hypothesis) + "`";
   if (hypotheses_.empty()) {
@@ -239,6 +248,14 @@ std::vector<std::string> Binder::VisibleNames() const {
 Bound Bind(std::shared_ptr<Sources> sources, const SyntaxTree& tree, const BindOptions& options,
            const Host& host) {
   return Binder(std::move(sources), options, host).BindScript(tree);
+}
+
+Bound BindFamily(const Library& library, const LibraryFamily& family) {
+  auto sources = std::make_shared<Sources>();
+  sources->files.push_back(MakeSource("", ""));
+  BindOptions options;
+  options.library = &library;
+  return Binder(std::move(sources), options, {}).BindFamily(family);
 }
 
 }  // namespace tranos::interp

@@ -51,6 +51,7 @@ class Binder {
  public:
   Binder(std::shared_ptr<Sources> sources, const BindOptions& options, const Host& host);
   Bound BindScript(const SyntaxTree& tree);
+  Bound BindFamily(const LibraryFamily& family);
 
  private:
   // A unit of code being written.
@@ -62,6 +63,15 @@ class Binder {
   };
   // Restores what a block changed of the binder.
   struct ScopeGuard;
+  // A family of the library: all is declared, and an element's body bound when it is reached.
+  struct Family {
+    Scope scope;
+    const SyntaxTree* tree = nullptr;
+    std::map<NodeId, std::uint32_t> predeclared;
+    std::map<std::uint32_t, NodeId> unbound;  // definition → where it stands
+  };
+  // Puts the binder at the top of a family, and back.
+  struct Elsewhere;
 
   // Statements (bind_statement.cpp).
   void BindStatements(const std::vector<NodeId>& statements);
@@ -81,8 +91,16 @@ class Binder {
   std::size_t BindHypotheses(const std::vector<NodeId>& statements, std::size_t first);
   void BindUse(NodeId id);
   void BindUsedFile(NodeId id, const std::string& path);
+  void Import(const Scope& used, const std::string& path, Span span);
   void BindAssert(NodeId id);
   void BindUnknown(NodeId id);
+  // The standard library (bind_library.cpp).
+  const Library& library() const;
+  const Command* LibraryCommand(std::string_view words);
+  Family& FamilyOf(const LibraryFamily& family);
+  void DeclareFamily(const LibraryFamily& family, Family* bound);
+  void BindElement(Family* family, std::uint32_t definition);
+  void BindLibraryUse(NodeId string, const std::string& path);
   // Definitions (bind_definition.cpp).
   void Predeclare(const std::vector<NodeId>& statements);
   void PredeclareFunction(NodeId id);
@@ -185,11 +203,14 @@ class Binder {
   // Files used: path → its top-level scope, null while it is being bound.
   std::map<std::string, std::unique_ptr<Scope>> used_;
   std::deque<SyntaxTree> used_trees_;
+  std::map<const LibraryFamily*, Family> families_;  // that the script reaches
+  bool in_library_ = false;
   bool in_used_file_ = false;
   bool at_top_ = true;
   std::string_view whole_words_;  // words that stand for 1 in the key being bound: `centre`
   bool in_definition_ = false;
-  int depth_ = 0;  // of the expression being bound
+  Definition* defining_ = nullptr;  // the one whose body is being bound
+  int depth_ = 0;                   // of the expression being bound
   std::set<std::string> declared_parameters_;
   std::vector<NodeId> hypotheses_;  // the names of all alternatives
   std::unordered_map<const Command*, std::uint32_t> uses_;

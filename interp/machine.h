@@ -74,6 +74,7 @@ class Machine {
                      Span span);
   // Definitions (placing.cpp).
   model::ElementPtr Place(const Placement& placement, const model::State& state);
+  model::PrototypePtr PrototypeOf(const Placement& placement, Registers registers);
   model::PrototypePtr Build(const Definition& definition, Registers registers, Span span);
   model::Hash128 KeyOf(const Definition& definition, const Registers& registers, Span span);
   const std::vector<std::pair<std::uint32_t, std::uint32_t>>& OuterOf(std::uint32_t unit);

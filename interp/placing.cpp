@@ -140,6 +140,25 @@ model::ElementPtr Machine::Place(const Placement& placement, const model::State&
       }
     }
   }
+  auto instance = std::make_shared<model::Instance>();
+  try {
+    instance->prototype = PrototypeOf(placement, std::move(registers));
+  } catch (RunFailure& failure) {
+    // Where another file goes wrong, the placement is what the user can change.
+    std::vector<Note>& notes = failure.diagnostic.notes;
+    const std::uint32_t at = notes.empty() || failure.diagnostic.span.file == placement.span.file
+                                 ? failure.diagnostic.span.file
+                                 : notes.back().span.file;
+    if (at != placement.span.file) notes.push_back({placement.span, "placed here"});
+    throw;
+  }
+  instance->world_from_prototype = placement.world_from_element;
+  return NewElement(state, model::InstancePtr(std::move(instance)));
+}
+
+// What the definition builds of these arguments: built once.
+model::PrototypePtr Machine::PrototypeOf(const Placement& placement, Registers registers) {
+  const Definition& definition = *placement.definition;
   Lend<const Placement*> placing(&placing_, &placement);
   ++definition_depth_;
   Execute(definition.unit, registers.data(), 0, stage_);  // the parameters
@@ -152,10 +171,7 @@ model::ElementPtr Machine::Place(const Placement& placement, const model::State&
     found = prototypes_.emplace(key, Build(definition, std::move(registers), placement.span)).first;
   }
   --definition_depth_;
-  auto instance = std::make_shared<model::Instance>();
-  instance->prototype = found->second;
-  instance->world_from_prototype = placement.world_from_element;
-  return NewElement(state, model::InstancePtr(std::move(instance)));
+  return found->second;
 }
 
 model::PrototypePtr Machine::Build(const Definition& definition, Registers registers, Span span) {

@@ -180,14 +180,21 @@ struct DefinedParameter {
   std::string summary;
   Span span;
 };
+// Where others meet a defined element.
+struct DefinedInterface {
+  std::string name;
+  std::vector<std::string> measures;
+};
 // A define or the parameters of a script: what help, binding and placing know of it.
 struct Definition {
   std::string words;  // "place dome cruciform", lower case
   std::string summary;
   std::vector<DefinedParameter> parameters;
+  std::vector<DefinedInterface> interfaces;
   std::uint32_t unit = 0;
   std::uint32_t scope = 0;  // its name scope
   Span span;                // of its words
+  Span whole;               // of its text, up to the closing brace
   std::vector<Key> keys;    // as a built-in's, pointing into `parameters`
   Command row;
 };

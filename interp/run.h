@@ -11,6 +11,7 @@
 
 #include "interp/diagnostic.h"
 #include "interp/host.h"
+#include "interp/library.h"
 #include "interp/parser.h"
 #include "interp/program.h"
 #include "model/edit.h"
@@ -28,6 +29,7 @@ struct BindOptions {
   std::string hypothesis;                                       // "" for the first of each
   std::vector<std::pair<std::string, std::string>> parameters;  // -D name=value
   int depth = 200;
+  const Library* library = nullptr;  // null: the standard one
 };
 
 // The program of a parsed script. Files that it uses are read through the host and added to
@@ -39,6 +41,8 @@ struct Bound {
 };
 Bound Bind(std::shared_ptr<Sources> sources, const SyntaxTree& tree, const BindOptions& options,
            const Host& host);
+// The program of an empty script and all of a library's family.
+Bound BindFamily(const Library& library, const LibraryFamily& family);
 
 // One key-in that was carried out, told as it happens.
 struct Step {

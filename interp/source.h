@@ -22,6 +22,7 @@ struct SourceText {
   std::string path;  // as the user named it
   std::string text;
   std::vector<std::uint32_t> line_starts;  // byte offset of each line
+  bool of_library = false;  // a family of the standard library; its path is no file's
 
   struct Place {
     std::uint32_t line, column;

@@ -59,7 +59,9 @@ void JournalWriter::WriteSources(const interp::Sources& sources) {
   for (const interp::SourceText& file : sources.files) {
     out_.Open('{').Key("path").String(file.path).Key("hash").String(
         model::Hex(HashOfText(file.text)));
-    out_.Key("text").String(file.text).Close('}');
+    out_.Key("text").String(file.text);
+    if (file.of_library) out_.Key("stdlib").Boolean(true);
+    out_.Close('}');
   }
   out_.Close(']');
 }

@@ -66,7 +66,8 @@ tl::expected<void, JournalFinding> ReadSources(const Json& header, Journal* jour
       return Broken(1, "the text of `" + interp::Printable(*path) +
                            "` does not have the hash that stands beside it");
     }
-    journal->sources.emplace_back(*path, *text);
+    const Json* library = Member(source, "stdlib", Json::value_t::boolean);
+    journal->sources.push_back({*path, *text, {}, library && library->get<bool>()});
   }
   return {};
 }
@@ -169,6 +170,17 @@ interp::PhotographFiles PhotographsIn(std::string_view steps) {
   return photographs;
 }
 
+// The families of the library that the recorded run reached, as they were then.
+std::vector<interp::LibraryFamily> FamiliesIn(const Journal& journal) {
+  std::vector<interp::LibraryFamily> families;
+  for (const interp::SourceText& source : journal.sources) {
+    if (!source.of_library) continue;
+    const std::size_t name = source.path.rfind('/') + 1;  // npos + 1 is the path's beginning
+    families.push_back({source.path.substr(name, source.path.rfind('.') - name), source.text});
+  }
+  return families;
+}
+
 }  // namespace
 
 interp::ScriptResult RunJournal(const Journal& journal,
@@ -177,17 +189,19 @@ interp::ScriptResult RunJournal(const Journal& journal,
   interp::Host host;
   host.read = [&](std::string_view path) -> tl::expected<std::string, interp::HostError> {
     for (std::size_t i = 1; i < journal.sources.size(); ++i) {
-      if (journal.sources[i].first == path) return journal.sources[i].second;
+      const interp::SourceText& source = journal.sources[i];
+      if (!source.of_library && source.path == path) return source.text;
     }
     return tl::make_unexpected(
         interp::HostError{interp::HostError::kMissing, "not in the journal"});
   };
   host.print = std::move(print);
   const RunSettings& settings = journal.settings;
-  return interp::RunScript(journal.sources[0].first, journal.sources[0].second,
-                           {settings.hypothesis, settings.parameters, settings.limits.depth},
-                           {settings.limits, std::move(on_step), {}, PhotographsIn(journal.steps)},
-                           host);
+  const interp::Library library(FamiliesIn(journal));
+  return interp::RunScript(
+      journal.sources[0].path, journal.sources[0].text,
+      {settings.hypothesis, settings.parameters, settings.limits.depth, &library},
+      {settings.limits, std::move(on_step), {}, PhotographsIn(journal.steps)}, host);
 }
 
 }  // namespace tranos::session

@@ -26,8 +26,8 @@ std::string RenderText(const JournalFinding& finding, std::string_view path);
 
 struct Journal {
   RunSettings settings;
-  std::string program;                                       // the version that wrote it
-  std::vector<std::pair<std::string, std::string>> sources;  // path, text; the script first
+  std::string program;                      // the version that wrote it
+  std::vector<interp::SourceText> sources;  // the script first; without the beginnings of lines
   std::string_view steps;  // of the journal's text: the lines after the first, the last one too
 };
 

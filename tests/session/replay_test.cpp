@@ -48,6 +48,20 @@ TEST(Replay, ReadsNothingButWhatTheJournalHolds) {
   EXPECT_EQ(ReplayOf(journal).verdict, ReplayReport::kEqual);
 }
 
+// A library that is no longer part of the program.
+TEST(Replay, HasTheLibraryOfTheRecordedRun) {
+  const interp::LibraryFamily huts{"huts", "define place hut { place line xy=0,0,0 dl=3 }"};
+  const interp::Library library(std::vector{huts});
+  std::string journal;
+  JournalWriter writer({}, "1.2.3", [&](std::string_view piece) { journal += piece; });
+  interp::BindOptions options;
+  options.library = &library;
+  writer.Finish(interp::RunScript("test.trn", "place hut xy=0,0", options,
+                                  {{}, [&](const interp::Step& step) { writer.Add(step); }}, {}));
+  EXPECT_THAT(journal, HasSubstr("\"path\":\"stdlib/huts.trn\""));
+  EXPECT_EQ(ReplayOf(journal).verdict, ReplayReport::kEqual);
+}
+
 TEST(Replay, OfARunThatFailedFailsAlike) {
   EXPECT_EQ(ReplayOf(JournalOf("place point xy=0,0\nplace circle radius=0 xy=0,0")).verdict,
             ReplayReport::kEqual);

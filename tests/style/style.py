@@ -12,13 +12,14 @@ from pathlib import Path
 
 # Which rooms a room may include, besides itself. An arrow never runs upward.
 ROOMS = {
+    "stdlib": set(),
     "geom": set(),
     "camera": {"geom"},
     "model": {"geom", "camera"},
-    "interp": {"model", "camera", "geom"},
+    "interp": {"model", "camera", "geom", "stdlib"},
     "session": {"interp", "model", "camera", "geom"},
     "output": {"model", "camera", "geom"},
-    "app": {"geom", "camera", "model", "interp", "session", "output"},
+    "app": {"geom", "camera", "model", "interp", "session", "output", "stdlib"},
 }
 
 # Beginnings of included names and the files that are their doors; the first that fits counts.
