@@ -45,7 +45,7 @@ class Photograph(harness.ProgramTest):
         self.assertIsNone(camera["sigma"]["skew_deg"])
         self.assertFalse(camera["determined"]["skew_deg"])
         self.assertTrue(camera["undetermined"])
-        self.assertEqual(len(camera["facade_homography"]), 3)
+        self.assertEqual(len(camera["rectangles"][0]["homography"]), 3)
 
     def test_camera_in_the_model(self):
         self.run_script(SCRIPT)
