@@ -101,6 +101,19 @@ std::vector<ProfilePoint> Profile(const Task& task, const Refined& best, const S
   return profile;
 }
 
+std::vector<Alternative> AlternativesOf(const Task& task, std::span<const Refined> others) {
+  std::vector<Alternative> alternatives;
+  for (const Refined& other : others) {
+    const auto at = LineariseAt(task, other);
+    if (!at) continue;
+    const Estimate estimate =
+        EstimatesOf(task.photographs, task.unknowns, task.layout, other, *at).front();
+    alternatives.push_back(
+        {estimate.camera, estimate.chi2, estimate.covariance, estimate.deviations});
+  }
+  return alternatives;
+}
+
 geom::Result<std::vector<Estimate>> Calibrated(std::span<const Photograph> photographs,
                                                std::span<const Unknown> unknowns,
                                                const NumbersOfUnknowns& numbers_of,
@@ -155,15 +168,7 @@ geom::Result<std::vector<Estimate>> Calibrated(std::span<const Photograph> photo
           Error{ErrorCode::kOutOfRange, wrong.text, wrong.part, wrong.other_part});
     warnings.push_back(wrong.text);
   }
-  for (std::size_t i = 0; i < adjusted->others.size(); ++i) {
-    Refined& other = adjusted->others[i];
-    const auto there = LineariseAt(task, other);
-    if (!there) continue;
-    const std::vector<Estimate> of_other =
-        EstimatesOf(photographs, unknowns, task.layout, other, *there);
-    first.alternatives.push_back(
-        {of_other[0].camera, of_other[0].chi2, of_other[0].covariance, of_other[0].deviations});
-  }
+  first.alternatives = AlternativesOf(task, adjusted->others);
   const std::vector<TrialSpread> trials =
       options.trials > 0 ? Trials(task, adjusted->best, options.trials, options.seed)
                          : std::vector<TrialSpread>(photographs.size());

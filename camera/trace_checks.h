@@ -10,11 +10,11 @@
 namespace tranos::camera {
 
 // The first thing that is wrong, `part` the index of the trace, counted through the photographs in
-// order (−1: of none alone): numbers or dots
-// that are not finite, deviations, dimensions and ratios that are not positive, edges and dots of
-// no length, a circle of less than five dots, rectangles crosswise or clockwise, two lines that are
-// one (`other` the first of them) and lie beside each other by more than half, lines all parallel
-// within noise and nothing else, two axes with one vanishing point.
+// order (−1: of none alone): numbers or dots that are not finite, deviations, dimensions and ratios
+// that are not positive, edges and dots of no length, a circle of less than five dots, rectangles
+// crosswise or clockwise, two lines that are one (`other` the first of them) and lie beside each
+// other by more than half, lines all parallel within noise and nothing else, two axes with one
+// vanishing point.
 std::optional<geom::Error> WrongWith(std::span<const Photograph>, const Numbers&);
 
 // An error of one photograph as one of several: `part` and `other` counted through them, and the
