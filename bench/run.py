@@ -289,12 +289,18 @@ def verdict(bench, ours, theirs):
     return "MISSED" if missed else "ok"
 
 
+def ratio_text(bench, ours, theirs):
+    """Of our time to the peer's, or to the target where there is no peer."""
+    other = theirs.seconds if theirs else bench.seconds
+    return f"{ours.seconds / other:.2f}" if other else "-"
+
+
 def report(make):
     bench = make()
     costs = measure([bench.ours] + ([bench.peer] if bench.peer else []))
     ours, theirs = costs[0], costs[1] if bench.peer else None
     row(bench.what, targets_text(bench), cost_text(ours), cost_text(theirs) if theirs else "-",
-        f"{ours.seconds / theirs.seconds:.2f}" if theirs else "-", verdict(bench, ours, theirs))
+        ratio_text(bench, ours, theirs), verdict(bench, ours, theirs))
 
 
 def main():
