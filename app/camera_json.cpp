@@ -74,6 +74,20 @@ ordered_json UnknownsJson(const model::Photograph& photograph) {
   return unknowns;
 }
 
+// Traces count from 1, as in messages.
+ordered_json RectanglesJson(const Estimate& estimate) {
+  ordered_json rectangles = ordered_json::array();
+  for (const camera::RectangleView& rectangle : estimate.rectangles) {
+    ordered_json homography = ordered_json::array();
+    for (int i = 0; i < 3; ++i) {
+      const auto row = rectangle.dot_from_metres.row(i);
+      homography.push_back({row[0], row[1], row[2]});
+    }
+    rectangles.push_back({{"trace", rectangle.trace + 1}, {"homography", std::move(homography)}});
+  }
+  return rectangles;
+}
+
 }  // namespace
 
 ordered_json CameraJson(const model::Element& element, const model::Photograph& photograph) {
@@ -118,13 +132,7 @@ ordered_json CameraJson(const model::Element& element, const model::Photograph& 
   }
   json["undetermined"] = estimate.undetermined;
   json["warnings"] = estimate.warnings;
-  if (estimate.facade_homography.isZero(0)) return json;
-  ordered_json homography = ordered_json::array();
-  for (int i = 0; i < 3; ++i) {
-    const auto row = estimate.facade_homography.row(i);
-    homography.push_back({row[0], row[1], row[2]});
-  }
-  json["facade_homography"] = std::move(homography);
+  if (!estimate.rectangles.empty()) json["rectangles"] = RectanglesJson(estimate);
   return json;
 }
 

@@ -255,15 +255,29 @@ geom::Result<camera::Estimate> EstimateBy(const Method& method,
   return estimate;
 }
 
-// Such a method knows of no deviations; what the data leave open is what they leave open.
-void TellOpen(const camera::Photograph& photograph, const camera::Numbers& numbers,
+// Such a method knows of no deviations; but what the data that it uses leave open to the likeliest
+// camera is open to all (docs/camera.md, "Determined, or not"). None of them uses priors.
+void TellOpen(const Method& method, camera::Photograph photograph, const camera::Numbers& numbers,
               camera::Estimate* estimate) {
+  for (camera::Prior& prior : photograph.priors) prior = {};
+  if (method.name == "dlt") {
+    std::erase_if(photograph.traces, [](const camera::Trace& trace) {
+      return !std::holds_alternative<camera::EdgeTrace>(trace) &&
+             !std::holds_alternative<camera::PointTrace>(trace);
+    });
+  }
+  if (method.name == "orthocentre") {  // assumed, not seen
+    for (const camera::Parameter p : {camera::kAspect, camera::kSkew}) {
+      estimate->parameters[p].determined = false;
+      estimate->parameters[p].from_prior = true;
+    }
+  }
   const auto likely = camera::Calibrate(photograph, numbers);
   if (!likely) return;
   estimate->undetermined = likely->undetermined;
   for (int i = 0; i < camera::kParameters; ++i) {
-    estimate->parameters[i].determined = likely->parameters[i].determined;
-    estimate->parameters[i].from_prior = likely->parameters[i].from_prior;
+    camera::ParameterEstimate& parameter = estimate->parameters[i];
+    if (!parameter.from_prior) parameter.determined = likely->parameters[i].determined;
   }
 }
 
@@ -273,7 +287,7 @@ geom::Result<std::vector<camera::Estimate>> EstimatesBy(const Method& method, co
   for (const camera::Photograph& photograph : traced.photographs) {
     auto estimate = EstimateBy(method, photograph, numbers);
     if (!estimate) return tl::unexpected(estimate.error());
-    TellOpen(photograph, numbers, &*estimate);
+    TellOpen(method, photograph, numbers, &*estimate);
     estimates.push_back(*std::move(estimate));
   }
   return estimates;
@@ -356,21 +370,23 @@ void Machine::LeaveUnknowns(const std::string& method, Span span) {
 void Machine::FailCalibration(const geom::Error& error, const Traced& traced, Span span) const {
   Code code = Code::kNotCalibrated;
   if (error.code == geom::ErrorCode::kOutOfRange) code = Code::kTracesDisagree;
-  std::vector<Note> notes;
-  int part = error.part;
-  for (const auto& ids : traced.trace_ids) {
-    if (part >= 0 && part < static_cast<int>(ids.size())) {
-      const auto place = stage_->trace_spans().find(ids[static_cast<std::size_t>(part)]);
-      if (place != stage_->trace_spans().end()) {
-        throw RunFailure{{code == Code::kNotCalibrated ? Code::kBadTrace : code,
-                          place->second,
-                          error.detail,
-                          "this trace",
-                          "",
-                          {{span, "calibrated here"}}}};
+  // Where a trace is written, by its index through the photographs.
+  const auto span_of = [&](int part) -> std::optional<Span> {
+    for (const auto& ids : traced.trace_ids) {
+      if (part >= 0 && part < static_cast<int>(ids.size())) {
+        const auto place = stage_->trace_spans().find(ids[static_cast<std::size_t>(part)]);
+        if (place != stage_->trace_spans().end()) return place->second;
       }
+      part -= static_cast<int>(ids.size());
     }
-    part -= static_cast<int>(ids.size());
+    return {};
+  };
+  if (const auto at = span_of(error.part)) {
+    std::vector<Note> notes;
+    if (const auto other = span_of(error.other)) notes.push_back({*other, "the other trace"});
+    notes.push_back({span, "calibrated here"});
+    throw RunFailure{{code == Code::kNotCalibrated ? Code::kBadTrace : code, *at, error.detail,
+                      "this trace", "", std::move(notes)}};
   }
   Fail(code, span, error.detail, "",
        "`tranos explain " + std::string(InfoOf(code).code) + "` says more");
@@ -379,26 +395,17 @@ void Machine::FailCalibration(const geom::Error& error, const Traced& traced, Sp
 // The state as the solution makes it: what depends on unknowns, and the photographs' cameras.
 Fired Machine::Calibrated(Solution solution, const model::State& before, Span span) {
   auto& [evaluation, traced, silent, solved, found] = solution;
-  // The first photograph's covariance is of its camera and the unknowns together; those of the
-  // others are their own.
-  Eigen::MatrixXd factor(0, 0);
-  std::vector<Eigen::Index> first_source;
-  Eigen::Index columns = 0;
-  for (const camera::Estimate& estimate : found) {
-    first_source.push_back(columns);
-    columns += FactorOf(estimate.covariance).cols();
-  }
   Trial trial = evaluation.TrialOf(solved);
   std::erase_if(trial.values, [&](const auto& value) {
     return solvables_[value.first].unknown.name.empty();  // literals stay as they are stated
   });
-  const Eigen::MatrixXd first = FactorOf(found[0].covariance);
-  factor.setZero(static_cast<Eigen::Index>(evaluation.sources().size()), columns);
+  // All cameras and unknowns of the adjustment vary with the same sources.
+  const Eigen::MatrixXd& deviations = found[0].deviations;
+  const Eigen::MatrixXd factor =
+      deviations.bottomRows(std::max<Eigen::Index>(deviations.rows() - camera::kParameters, 0));
   for (std::size_t k = 0; k < evaluation.sources().size(); ++k) {
     const auto row = static_cast<Eigen::Index>(k);
-    if (camera::kParameters + row >= first.rows()) continue;
-    factor.row(row).head(first.cols()) = first.row(camera::kParameters + row);
-    trial.rows[evaluation.sources()[k]] = row;
+    if (row < factor.rows()) trial.rows[evaluation.sources()[k]] = row;
   }
   trial.factor = &factor;
   TrialRun run(*this, silent, trial);
@@ -412,7 +419,6 @@ Fired Machine::Calibrated(Solution solution, const model::State& before, Span sp
     for (const std::size_t source : evaluation.sources()) {
       photograph.unknown_dimensions.push_back(solvables_[source].dimension);
     }
-    photograph.first_source = static_cast<model::SourceId>(first_source[p]);
     Warn(found[p], *element, traced.trace_ids[p], span);
     photograph.estimate = std::make_shared<const camera::Estimate>(std::move(found[p]));
     std::erase_if(fired.edit.replaced,

@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 
 #include "camera/parameter_table.h"
@@ -46,14 +45,11 @@ Value MemberValue(const Photograph& photograph, const Row& row) {
                     estimate.undetermined.empty() ? "" : estimate.undetermined.front()};
   }
   const double value = estimate.camera[row.parameter] * row.in_si;
-  const Eigen::MatrixXd factor = FactorOf(estimate.covariance);
+  const Eigen::MatrixXd& deviations = estimate.deviations;
   model::Derivatives derivatives;
-  for (Eigen::Index j = 0; j < factor.cols(); ++j) {
-    const double slope = factor(row.parameter, j) * row.in_si;
-    if (slope != 0) {
-      derivatives.terms.emplace_back(photograph.first_source + static_cast<model::SourceId>(j),
-                                     slope);
-    }
+  for (Eigen::Index j = 0; j < deviations.cols(); ++j) {
+    const double slope = deviations(row.parameter, j) * row.in_si;
+    if (slope != 0) derivatives.terms.emplace_back(static_cast<model::SourceId>(j), slope);
   }
   if (derivatives.terms.empty()) return Value::Number(value, row.dimension);
   return Value::Uncertain({value, std::move(derivatives)}, row.dimension);
@@ -121,17 +117,6 @@ std::string ResidualLine(const camera::Estimate& estimate) {
 }
 
 }  // namespace
-
-Eigen::MatrixXd FactorOf(const Eigen::MatrixXd& covariance) {
-  if (covariance.size() == 0) return Eigen::MatrixXd(camera::kParameters, 0);
-  // Scaled first: millimetres and radians stand beside one another.
-  const Eigen::VectorXd sigma = covariance.diagonal().cwiseMax(0).cwiseSqrt();
-  const Eigen::VectorXd inverse = sigma.unaryExpr([](double s) { return s > 0 ? 1 / s : 0.0; });
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(inverse.asDiagonal() * covariance *
-                                                              inverse.asDiagonal());
-  return sigma.asDiagonal() * solver.eigenvectors() *
-         solver.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal();
-}
 
 std::optional<Value> PhotographMember(const Photograph& photograph, std::string_view name) {
   if (name == "width") return Value::Number(photograph.frame.size_px.x(), model::kPixel);

@@ -46,6 +46,7 @@ CommandResult RecoverCamera(const State& state, const Answers& answers) {
   std::swap(estimate.camera, best->camera);
   std::swap(estimate.chi2, best->chi2);
   std::swap(estimate.covariance, best->covariance);
+  std::swap(estimate.deviations, best->deviations);
   for (int i = 0; i < camera::kParameters && estimate.covariance.size() > 0; ++i) {
     estimate.parameters[i].sigma = std::sqrt(std::max(estimate.covariance(i, i), 0.0));
   }

@@ -45,7 +45,16 @@ class Photograph(harness.ProgramTest):
         self.assertIsNone(camera["sigma"]["skew_deg"])
         self.assertFalse(camera["determined"]["skew_deg"])
         self.assertTrue(camera["undetermined"])
-        self.assertEqual(len(camera["facade_homography"]), 3)
+        self.assertEqual(len(camera["rectangles"][0]["homography"]), 3)
+
+    def test_what_a_method_assumes_is_not_determined_by_it(self):
+        text = (GOLDENS / "calibrate_by_dlt.trn").read_text(encoding="utf-8")
+        camera = self.camera(text.partition("calibrate")[0] + "calibrate method=orthocentre")
+        for name in ["aspect", "skew_deg"]:
+            self.assertFalse(camera["determined"][name])
+            self.assertTrue(camera["from_prior"][name])
+        self.assertEqual(camera["aspect"], 1)
+        self.assertTrue(camera["determined"]["f_mm"])
 
     def test_camera_in_the_model(self):
         self.run_script(SCRIPT)
