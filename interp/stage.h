@@ -175,6 +175,7 @@ class Stage {
   void AddChosen(const model::ElementPtr& element, Span span, ChosenOnce* out) const;
   void Fire(Span span);
   void GuardChanges(model::Edit* edit) const;
+  void WarnTooLate(const model::Edit& edit) const;
   void FirePlacement(Span span);
   void FireHistory(Span span);
   Fired Execute(const Command& row, const Answers& answers, Span span) const;
@@ -208,6 +209,7 @@ class Stage {
   std::vector<model::State> history_;  // the state before each firing that changed the model
   std::vector<model::State> undone_;
   std::size_t history_base_ = 0;
+  bool calibrated_ = false;
   std::size_t ids_given_ = 0;  // an id is given once in a run, that of an undone element too
   std::vector<std::pair<std::string, std::size_t>> marks_;
   std::unordered_map<model::ElementId, Span> trace_spans_;

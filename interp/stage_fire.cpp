@@ -176,6 +176,21 @@ void Stage::GuardChanges(model::Edit* edit) const {
   std::erase_if(edit->consumed, [&](ElementId id) { return id >= entries.size(); });
 }
 
+// What `calibrate` would have gone by, and stands after it; traces of stated cameras are for
+// their penalty.
+void Stage::WarnTooLate(const model::Edit& edit) const {
+  for (const ElementPtr& element : edit.added) {
+    const auto* trace = std::get_if<model::TracePtr>(&element->geometry);
+    const ElementPtr of = trace ? state_.model.Current((*trace)->photograph) : nullptr;
+    const auto* photograph = of ? std::get_if<model::PhotographPtr>(&of->geometry) : nullptr;
+    if (photograph && (*photograph)->file.empty()) return;
+  }
+  links_.diagnostics->Add(
+      {Code::kTakesNoPart, active_.span,
+       "`" + std::string(active_.row->words) + "` stands after `calibrate` and takes no part in it",
+       "", "write it before `calibrate`"});
+}
+
 void Stage::Fire(Span span) {
   const Command& row = *active_.row;
   CheckRequired(span);
@@ -188,6 +203,7 @@ void Stage::Fire(Span span) {
   }
   Fired fired = Execute(row, answers, span);
   GuardChanges(&fired.edit);
+  if (calibrated_ && row.informs) WarnTooLate(fired.edit);
   for (const CommandError& warning : fired.warnings)
     links_.diagnostics->Add(MakeDiagnostic(warning));
   for (const std::string& line : fired.messages) {
@@ -215,6 +231,7 @@ void Stage::Fire(Span span) {
   if (row.calibrates) {  // what it stands on cannot be undone
     history_base_ = history_.size();
     undone_.clear();
+    calibrated_ = true;
   }
   AskAgain();
 }
@@ -379,8 +396,8 @@ void Stage::TooFew(Span span) const {
   }
   std::string asked;
   if (row.manner == Manner::kGathers) {
-    asked = "at least " + std::to_string(row.least) + " points, and has " +
-            std::to_string(active_.points.size());
+    asked = "at least " + std::to_string(row.least) + (row.dots ? " dots" : " points") +
+            ", and has " + std::to_string(active_.points.size());
   } else {
     for (std::size_t i = 0; i < row.prompts.size() && asked.empty(); ++i) {
       if (!active_.answered[i] && !KeyAnswers(static_cast<int>(i)))
@@ -389,7 +406,9 @@ void Stage::TooFew(Span span) const {
   }
   if (asked.empty()) asked = "a data point";
   Fail(Code::kTooFewPoints, active_.span, "`" + std::string(row.words) + "` asks for " + asked, "",
-       "give it a data point such as xy=0,0,0, or drop the question with `reset`",
+       std::string("give it ") +
+           (row.dots ? "a dot such as dot=102.5,211" : "a data point such as xy=0,0,0") +
+           ", or drop the question with `reset`",
        {{span, "it ends here"}});
 }
 

@@ -61,6 +61,7 @@ class Gathering {
     const auto place = place_.find(trace.photograph);
     if (place == place_.end()) return;
     const auto made = Made(trace);
+    out_.number_owners.resize(out_.numbers.size(), id);
     if (!made) return;
     if (is_first_) out_.noise_px = trace.noise_px;
     is_first_ = false;
@@ -112,7 +113,6 @@ class Gathering {
       const geom::Vec3 p = geom::PointAt(**curve, static_cast<double>(i) / (points - 1));
       for (const double x : p) out_.numbers.push_back(Value::Number(x, model::kLength));
     }
-    out_.shaped.emplace_back(first, 3 * points);
     if (!line) return camera::CurveTrace{trace.dots_px, Noise(trace), first, points};
     if (const auto image = Line(trace)) return camera::EdgeTrace{*image, first, first + 3};
     return std::nullopt;

@@ -16,8 +16,8 @@ struct Traced {
   std::vector<model::ElementId> photograph_ids;          // of each
   std::vector<std::vector<model::ElementId>> trace_ids;  // of each, by trace
   std::vector<model::Value> numbers;                     // by camera::NumberIndex, in SI
-  std::vector<std::pair<int, int>> shaped;  // first number and count of those read off an element
-  double noise_px = 0.5;                    // of the first trace
+  std::vector<model::ElementId> number_owners;           // the trace that each stands for
+  double noise_px = 0.5;                                 // of the first trace
   bool noise_is_estimated = false;
 };
 // Of the photograph with this id, or of all attached ones.
