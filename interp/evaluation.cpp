@@ -215,7 +215,7 @@ geom::Result<camera::Numbers> Machine::Evaluation::operator()(const Eigen::Vecto
         numbers.by_unknown(static_cast<Eigen::Index>(i), column->second) = slope;
       }
     }
-    if (!read_off_.empty()) DifferenceReadOff(unknowns, &numbers);
+    if (!read_off_.empty()) AddReadOff(unknowns, &numbers);
     return numbers;
   } catch (const RunFailure& failure) {
     failure_ = failure;
@@ -224,18 +224,24 @@ geom::Result<camera::Numbers> Machine::Evaluation::operator()(const Eigen::Vecto
 }
 
 // Elements carry no derivatives: what is read off them is evaluated on both sides, for each source
-// that moves it.
-void Machine::Evaluation::DifferenceReadOff(const Eigen::VectorXd& unknowns,
-                                            camera::Numbers* numbers) const {
+// that moves it. The solver asks again for what it has seen, from other starts of the camera.
+const Machine::ReadOff& Machine::Evaluation::ReadOffAt(const Eigen::VectorXd& unknowns) {
+  std::vector<double> moved;
+  for (const std::size_t source : movers_) moved.push_back(unknowns[column_.at(source)]);
+  constexpr std::size_t kMostKept = 64;
+  if (known_.size() > kMostKept) known_.clear();
+  const auto known = known_.find(moved);
+  if (known != known_.end()) return known->second;
   const auto values_at = [&](const Eigen::VectorXd& at) {
-    return ValuesOf(Traces(TrialOf(at)).numbers);
+    const Eigen::VectorXd all = ValuesOf(Traces(TrialOf(at)).numbers);
+    Eigen::VectorXd values(static_cast<Eigen::Index>(read_off_.size()));
+    Eigen::Index n = 0;
+    for (const std::size_t number : read_off_) {
+      values[n++] = all[static_cast<Eigen::Index>(number)];
+    }
+    return values;
   };
-  const Eigen::VectorXd here = values_at(unknowns);
-  for (const std::size_t i : read_off_) {
-    const auto row = static_cast<Eigen::Index>(i);
-    numbers->values[row] = here[row];
-    numbers->by_unknown.row(row).setZero();
-  }
+  ReadOff found{values_at(unknowns), {}};
   for (const std::size_t source : movers_) {
     const Eigen::Index k = column_.at(source);
     const double step = DifferenceStep(unknowns[k]);
@@ -243,11 +249,24 @@ void Machine::Evaluation::DifferenceReadOff(const Eigen::VectorXd& unknowns,
     beside[k] += step;
     const Eigen::VectorXd after = values_at(beside);
     beside[k] -= 2 * step;
-    const Eigen::VectorXd before = values_at(beside);
-    for (const std::size_t i : read_off_) {
-      const auto row = static_cast<Eigen::Index>(i);
-      numbers->by_unknown(row, k) = (after[row] - before[row]) / (2 * step);
+    found.slopes.emplace_back((after - values_at(beside)) / (2 * step));
+  }
+  return known_.emplace(std::move(moved), std::move(found)).first->second;
+}
+
+// Puts what is read off elements into its rows.
+void Machine::Evaluation::AddReadOff(const Eigen::VectorXd& unknowns, camera::Numbers* numbers) {
+  const ReadOff& read = ReadOffAt(unknowns);
+  Eigen::Index n = 0;
+  for (const std::size_t number : read_off_) {
+    const auto row = static_cast<Eigen::Index>(number);
+    numbers->values[row] = read.values[n];
+    numbers->by_unknown.row(row).setZero();
+    auto slopes = read.slopes.begin();
+    for (const std::size_t source : movers_) {
+      numbers->by_unknown(row, column_.at(source)) = (*slopes++)[n];
     }
+    ++n;
   }
 }
 

@@ -45,6 +45,12 @@ class Machine::TrialRun {
   model::State state_;
 };
 
+// Numbers read off elements, with their derivatives by each source that moves them.
+struct Machine::ReadOff {
+  Eigen::VectorXd values;
+  std::vector<Eigen::VectorXd> slopes;
+};
+
 // Gives the numbers that traces stand on for any values of the unknowns.
 class Machine::Evaluation {
  public:
@@ -76,17 +82,19 @@ class Machine::Evaluation {
   model::Value Again(const Trial& trial, const Slice::Operation& operation,
                      model::Value* registers) const;
   Traced Traces(const Trial& trial) const;
-  void DifferenceReadOff(const Eigen::VectorXd& unknowns, camera::Numbers* numbers) const;
+  const ReadOff& ReadOffAt(const Eigen::VectorXd& unknowns);
+  void AddReadOff(const Eigen::VectorXd& unknowns, camera::Numbers* numbers);
   void CheckCount(const Traced& traced) const;
   bool CanMove(std::size_t source) const;
 
   Machine& main_;
   const Host& silent_;
   const Traced& start_;
-  const Span span_;                   // of `calibrate`
-  std::set<std::size_t> read_off_;    // numbers that elements give which unknowns move
-  std::set<std::size_t> movers_;      // the sources that move them
-  std::vector<std::size_t> sources_;  // of each unknown of the adjustment
+  const Span span_;                               // of `calibrate`
+  std::set<std::size_t> read_off_;                // numbers that elements give which unknowns move
+  std::set<std::size_t> movers_;                  // the sources that move them
+  std::map<std::vector<double>, ReadOff> known_;  // by the movers' values
+  std::vector<std::size_t> sources_;              // of each unknown of the adjustment
   std::map<std::size_t, Eigen::Index> column_;
   std::vector<camera::Unknown> unknowns_;
   std::optional<RunFailure> failure_;

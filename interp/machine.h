@@ -84,6 +84,7 @@ class Machine {
   // Photographs and unknowns (calibration.cpp).
   struct Trial;
   class TrialRun;
+  struct ReadOff;
   class Evaluation;
   struct Solution;
   // Something that the adjustment may solve for: an unknown, or the error of a `+-` literal.

@@ -92,21 +92,34 @@ void AddPoint(const Value& point, std::vector<Value>* numbers) {
   }
 }
 
+// Which edge it is must be said once.
+std::optional<CommandError> UnsaidEdge(const Answers& answers) {
+  const bool from = answers.Has("from"), to = answers.Has("to");
+  const int said = static_cast<int>(answers.words.size()) + answers.Has("of") + (from || to);
+  if (said == 1 && from == to) return std::nullopt;
+  if (said == 1) {
+    return CommandError{
+        .code = Code::kMissingValue,
+        .message = fmt::format("an edge in space has two ends, and `{}=` is not given",
+                               from ? "to" : "from"),
+        .help = "trace edge from=[0,0,0] to=[0,14m,0] …",
+        .where = {Where::kKey, 0, from ? "from" : "to"}};
+  }
+  return CommandError{
+      .code = Code::kMissingValue,
+      .message = said == 0 ? "which edge is it? An axis, both ends, or an element of the model"
+                           : "which edge it is may be said once: an axis, both ends, or an element",
+      .help = "trace edge x …; trace edge from=[0,0,0] to=[0,14m,0] …; trace edge of=sill …"};
+}
+
 CommandResult TraceEdge(const State& state, const Answers& answers) {
   Trace trace{.kind = Kind::kDirection};
   const auto samples = SamplesOf(answers);
   if (!samples) return Fail(samples.error());
   trace.samples = *samples;
-  const bool in_space = answers.Has("from") && answers.Has("to");
-  const int said = static_cast<int>(answers.words.size()) + answers.Has("of") + in_space;
-  if (said != 1) {
-    return Fail({.code = Code::kMissingValue,
-                 .message = "which edge is it? An axis, both ends, or an element of the model",
-                 .help = "trace edge x …; trace edge from=[0,0,0] to=[0,14m,0] …; "
-                         "trace edge of=sill …"});
-  }
+  if (const auto error = UnsaidEdge(answers)) return Fail(*error);
   if (!answers.words.empty()) trace.axis = answers.words[0][0] - 'x';
-  if (in_space) {
+  if (answers.Has("from")) {
     trace.kind = Kind::kEdge;
     if ((*answers.Point("from") - *answers.Point("to")).norm() <= geom::kCoincident_m) {
       return Fail({.code = Code::kBadTrace,
