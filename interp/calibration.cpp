@@ -116,7 +116,7 @@ Fired Machine::Calibrate(const Answers& answers, const model::State& state, Span
          "attach photo \"fire_1917.png\" format=40.5mm,26.7mm as fire");
   }
   const Host silent{host_.read, nullptr};
-  Evaluation evaluation(*this, silent, traced, span);
+  Evaluation evaluation(*this, silent, state, traced, span);
   const Method method{answers.Text("method", "likelihood"), RangeOf(answers, span)};
   Eigen::VectorXd start(static_cast<Eigen::Index>(evaluation.unknowns().size()));
   for (Eigen::Index k = 0; k < start.size(); ++k) {

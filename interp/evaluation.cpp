@@ -18,6 +18,9 @@ struct Reached {};
 // A step for differences by an unknown, where a trace is read off an element.
 double DifferenceStep(double value) { return 1e-6 * std::max(1.0, std::abs(value)); }
 
+// But for the order of sums.
+bool IsSame(double a, double b) { return std::abs(a - b) <= 1e-12 * (1 + std::abs(a)); }
+
 }  // namespace
 
 void Machine::EndTrial() { throw Reached{}; }
@@ -48,9 +51,10 @@ void Machine::TrialRun::Run() {
   state_ = stage.state();
 }
 
-Machine::Evaluation::Evaluation(Machine& main, const Host& silent, const Traced& start, Span span)
-    : main_(main), silent_(silent), start_(start), span_(span) {
-  main_.slice_->KeepFor(start_.numbers);
+Machine::Evaluation::Evaluation(Machine& main, const Host& silent, const model::State& state,
+                                const Traced& start, Span span)
+    : main_(main), silent_(silent), state_(state), start_(start), span_(span) {
+  main_.slice_->KeepFor(start_.numbers, start_.elements);
   FindReadOff();
   FindUnknowns();
 }
@@ -81,14 +85,20 @@ void Machine::Evaluation::FindReadOff() {
   }
   if (all.empty() || start_.numbers.empty()) return;
   const Trial trial = Moved(all);
-  read_off_ = Beyond(Traces(trial), trial);
-  if (!read_off_.empty()) FindMovers(all);
+  const Traced traced = Traces(trial);
+  read_off_ = Beyond(traced, trial);
+  if (read_off_.empty()) return;
+  const Traced placed = TracesPlaced(trial);
+  places_ = std::all_of(read_off_.begin(), read_off_.end(), [&](std::size_t number) {
+    return IsSame(placed.numbers[number].number(), traced.numbers[number].number());
+  });
+  FindMovers(all);
 }
 
 // By halves: few of many sources move what is read off elements.
 void Machine::Evaluation::FindMovers(const std::vector<std::size_t>& sources) {
   const Trial trial = Moved(sources);
-  if (Beyond(Traces(trial), trial).empty()) return;
+  if (Beyond(TracesBeyond(trial), trial).empty()) return;
   if (sources.size() == 1) {
     movers_.insert(sources[0]);
     return;
@@ -160,12 +170,18 @@ Value Machine::Evaluation::Again(const Trial& trial, const Slice::Operation& ope
   }
 }
 
-std::vector<Value> Machine::Evaluation::Sliced(const Trial& trial) const {
+Slice::Known Machine::Evaluation::Known(const Trial& trial) const {
   main_.budget_.ChargeSteps(main_.slice_->size(), span_);
-  return main_.slice_->Evaluated(start_.numbers,
-                                 [&](const Slice::Operation& operation, Value* registers) {
-                                   return Again(trial, operation, registers);
-                                 });
+  return main_.slice_->Evaluated([&](const Slice::Operation& operation, Value* registers) {
+    return Again(trial, operation, registers);
+  });
+}
+
+std::vector<Value> Machine::Evaluation::Sliced(const Trial& trial) const {
+  const Slice::Known known = Known(trial);
+  std::vector<Value> now;
+  for (const Value& number : start_.numbers) now.push_back(Slice::Now(number, known));
+  return now;
 }
 
 std::set<std::size_t> Machine::Evaluation::Beyond(const Traced& traced, const Trial& trial) const {
@@ -173,8 +189,7 @@ std::set<std::size_t> Machine::Evaluation::Beyond(const Traced& traced, const Tr
   const std::vector<Value> sliced = Sliced(trial);
   std::set<std::size_t> beyond;
   for (std::size_t i = 0; i < sliced.size(); ++i) {
-    const double a = sliced[i].number(), b = traced.numbers[i].number();
-    if (std::abs(a - b) > 1e-12 * (1 + std::abs(a))) beyond.insert(i);
+    if (!IsSame(sliced[i].number(), traced.numbers[i].number())) beyond.insert(i);
   }
   return beyond;
 }
@@ -192,6 +207,25 @@ Traced Machine::Evaluation::Traces(const Trial& trial) const {
   Traced traced = TracedIn(run.state());
   CheckCount(traced);
   return traced;
+}
+
+// What the traces' elements give, placed again.
+Traced Machine::Evaluation::TracesPlaced(const Trial& trial) const {
+  const Slice::Known known = Known(trial);
+  model::Edit edit;
+  for (const Slice::Firing& firing : main_.slice_->firings()) {
+    const model::ElementPtr current = state_.model.Current(firing.placed);
+    if (!current) continue;
+    const CommandResult placed =
+        firing.row->execute(firing.before, main_.slice_->Now(firing, known));
+    if (!placed) Fail(placed.error().code, span_, placed.error().message);
+    edit.replaced.push_back(model::WithGeometry(*current, placed->edit.added.front()->geometry));
+  }
+  return TracedIn(model::Apply(state_, edit).state);
+}
+
+Traced Machine::Evaluation::TracesBeyond(const Trial& trial) const {
+  return places_ ? TracesPlaced(trial) : Traces(trial);
 }
 
 void Machine::Evaluation::CheckCount(const Traced& traced) const {
@@ -233,7 +267,7 @@ const Machine::ReadOff& Machine::Evaluation::ReadOffAt(const Eigen::VectorXd& un
   const auto known = known_.find(moved);
   if (known != known_.end()) return known->second;
   const auto values_at = [&](const Eigen::VectorXd& at) {
-    const Eigen::VectorXd all = ValuesOf(Traces(TrialOf(at)).numbers);
+    const Eigen::VectorXd all = ValuesOf(TracesBeyond(TrialOf(at)).numbers);
     Eigen::VectorXd values(static_cast<Eigen::Index>(read_off_.size()));
     Eigen::Index n = 0;
     for (const std::size_t number : read_off_) {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The statements before `calibrate` as a function of the unknowns. Numbers are computed again by
-// the slice that was recorded as they ran; what is read off an element that unknowns move, by
-// running all of them in a machine of its own, silently. Private to this room.
+// the slice that was recorded as they ran, and elements that traces are of are placed again by it;
+// what else is read off an element that unknowns move, by running all of them in a machine of its
+// own, silently. Private to this room.
 #pragma once
 
 #include <map>
@@ -55,9 +56,10 @@ struct Machine::ReadOff {
 class Machine::Evaluation {
  public:
   // Finds what the numbers depend on: by their derivatives; and by running everything once with
-  // all unknowns moved a little, which tells the numbers that the slice does not give: those that
-  // are read off elements.
-  Evaluation(Machine& main, const Host& silent, const Traced& start, Span span);
+  // all unknowns moved a little, which tells the numbers that are read off elements, and whether
+  // placing these again gives them.
+  Evaluation(Machine& main, const Host& silent, const model::State& state, const Traced& start,
+             Span span);
 
   const std::vector<camera::Unknown>& unknowns() const { return unknowns_; }
   const std::vector<std::size_t>& sources() const { return sources_; }
@@ -81,7 +83,10 @@ class Machine::Evaluation {
                           const model::Value* registers) const;
   model::Value Again(const Trial& trial, const Slice::Operation& operation,
                      model::Value* registers) const;
+  Slice::Known Known(const Trial& trial) const;
   Traced Traces(const Trial& trial) const;
+  Traced TracesPlaced(const Trial& trial) const;
+  Traced TracesBeyond(const Trial& trial) const;
   const ReadOff& ReadOffAt(const Eigen::VectorXd& unknowns);
   void AddReadOff(const Eigen::VectorXd& unknowns, camera::Numbers* numbers);
   void CheckCount(const Traced& traced) const;
@@ -89,10 +94,12 @@ class Machine::Evaluation {
 
   Machine& main_;
   const Host& silent_;
+  const model::State& state_;  // at `calibrate`, with the start values
   const Traced& start_;
-  const Span span_;                               // of `calibrate`
-  std::set<std::size_t> read_off_;                // numbers that elements give which unknowns move
-  std::set<std::size_t> movers_;                  // the sources that move them
+  const Span span_;                 // of `calibrate`
+  std::set<std::size_t> read_off_;  // numbers that elements give which unknowns move
+  bool places_ = false;             // all of these: placing their elements again gives them
+  std::set<std::size_t> movers_;    // the sources that move them
   std::map<std::vector<double>, ReadOff> known_;  // by the movers' values
   std::vector<std::size_t> sources_;              // of each unknown of the adjustment
   std::map<std::size_t, Eigen::Index> column_;

@@ -68,6 +68,7 @@ StageLinks Machine::LinksFor(bool is_script) {
           &sources_,
           photographs_.get(),
           unsolved_ ? &trail_ : nullptr,
+          is_script && slice_ ? &*slice_ : nullptr,
           stages_made_++,
           &turns_,
           &turn_values_};

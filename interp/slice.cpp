@@ -2,7 +2,8 @@
 #include "interp/slice.h"
 
 #include <algorithm>
-#include <unordered_map>
+
+#include "interp/stage.h"
 
 namespace tranos::interp {
 
@@ -23,8 +24,6 @@ bool HoldsNumber(const Value& value) {
   if (value.derivatives()) return true;
   return value.is_list() && std::any_of(value.list().begin(), value.list().end(), HoldsNumber);
 }
-
-using Known = std::unordered_map<const Derivatives*, Value>;
 
 // The registers among an instruction's operands; nothing where it is no operation of the slice.
 std::optional<std::vector<std::uint32_t>> RegistersOf(const Instruction& i) {
@@ -69,20 +68,8 @@ std::optional<std::vector<std::uint32_t>> RegistersOf(const Instruction& i) {
   return out;
 }
 
-// The value with its numbers as they are now.
-Value Replaced(const Value& value, const Known& known) {
-  if (const Derivatives* derivatives = value.derivatives()) {
-    const auto found = known.find(derivatives);
-    return found == known.end() ? value : found->second;
-  }
-  if (!HoldsNumber(value)) return value;
-  std::vector<Value> items;
-  for (const Value& item : value.list()) items.push_back(Replaced(item, known));
-  return Value::List(std::move(items));
-}
-
 // Takes the numbers of a result for those of the result when it was first made.
-void Bind(const Value& first, const Value& now, Known* known) {
+void Bind(const Value& first, const Value& now, Slice::Known* known) {
   if (const Derivatives* derivatives = first.derivatives()) {
     known->insert_or_assign(derivatives, now);
     return;
@@ -122,10 +109,34 @@ void Slice::NoteText(const Value& text) {
   if (texts_.insert(&text.string()).second) text_values_.push_back(text);
 }
 
-void Slice::KeepFor(const std::vector<Value>& numbers) {
+std::size_t Slice::NotePoint(PointKey kind, const Value& values, const model::Drawing& drawing,
+                             std::size_t last) {
+  if (last == kNone && !HoldsNumber(values)) return kNone;
+  points_.push_back({kind, values, drawing, last});
+  return points_.size() - 1;
+}
+
+void Slice::NoteFiring(Firing firing) {
+  const bool by_point = std::any_of(firing.points.begin(), firing.points.end(),
+                                    [](std::size_t point) { return point != kNone; });
+  const bool by_key = std::any_of(firing.answers.keys.begin(), firing.answers.keys.end(),
+                                  [](const auto& key) { return HoldsNumber(key.second); });
+  if (by_point || by_key) firings_.push_back(std::move(firing));
+}
+
+void Slice::KeepFor(const std::vector<Value>& numbers,
+                    const std::unordered_set<model::ElementId>& elements) {
+  std::erase_if(firings_, [&](const Firing& firing) { return !elements.contains(firing.placed); });
   std::unordered_set<const Derivatives*> wanted;
   const auto want = [&](const Value& number) { wanted.insert(number.derivatives()); };
   for (const Value& number : numbers) ForEachNumber(number, want);
+  for (const Firing& firing : firings_) {
+    for (const auto& [key, value] : firing.answers.keys) ForEachNumber(value, want);
+    for (std::size_t point : firing.points) {
+      for (; point != kNone; point = points_[point].last)
+        ForEachNumber(points_[point].values, want);
+    }
+  }
   std::vector<Operation> kept;
   for (auto operation = operations_.rbegin(); operation != operations_.rend(); ++operation) {
     bool leads = false;
@@ -140,17 +151,41 @@ void Slice::KeepFor(const std::vector<Value>& numbers) {
   operations_ = std::move(kept);
 }
 
-std::vector<Value> Slice::Evaluated(const std::vector<Value>& numbers, const Again& again) const {
+Slice::Known Slice::Evaluated(const Again& again) const {
   Known known;
   std::vector<Value> registers;
   for (const Operation& operation : operations_) {
     registers.resize(std::max<std::size_t>(registers.size(), operation.unit->registers));
-    for (const auto& [at, value] : operation.registers) registers[at] = Replaced(value, known);
+    for (const auto& [at, value] : operation.registers) registers[at] = Now(value, known);
     Bind(operation.result, again(operation, registers.data()), &known);
   }
-  std::vector<Value> out;
-  for (const Value& number : numbers) out.push_back(Replaced(number, known));
-  return out;
+  return known;
+}
+
+Value Slice::Now(const Value& value, const Known& known) {
+  if (const Derivatives* derivatives = value.derivatives()) {
+    const auto found = known.find(derivatives);
+    return found == known.end() ? value : found->second;
+  }
+  if (!HoldsNumber(value)) return value;
+  std::vector<Value> items;
+  for (const Value& item : value.list()) items.push_back(Now(item, known));
+  return Value::List(std::move(items));
+}
+
+geom::Vec3 Slice::Now(const Point& point, const Known& known) const {
+  const geom::Vec3 last =
+      point.last == kNone ? point.drawing.last_point : Now(points_[point.last], known);
+  return PlaceOf(point.kind, Now(point.values, known), point.drawing, last);
+}
+
+Answers Slice::Now(const Firing& firing, const Known& known) const {
+  Answers answers = firing.answers;
+  for (auto& [key, value] : answers.keys) value = Now(value, known);
+  for (std::size_t i = 0; i < answers.points.size(); ++i) {
+    if (firing.points[i] != kNone) answers.points[i] = Now(points_[firing.points[i]], known);
+  }
+  return answers;
 }
 
 }  // namespace tranos::interp

@@ -176,6 +176,15 @@ void Stage::GuardChanges(model::Edit* edit) const {
   std::erase_if(edit->consumed, [&](ElementId id) { return id >= entries.size(); });
 }
 
+// Takes down the placing of one element by what was answered alone.
+void Stage::NotePlaced(const Answers& answers, const model::Edit& edit) const {
+  const Command& row = *active_.row;
+  const bool places = row.manner == Manner::kPlaces || row.manner == Manner::kGathers;
+  if (!places || !row.execute || row.dots || edit.added.size() != 1) return;
+  links_.slice->NoteFiring({&row, answers, state_, active_.point_notes,
+                            static_cast<model::ElementId>(state_.model.entries.size())});
+}
+
 // What `calibrate` would have gone by, and stands after it; traces of stated cameras are for
 // their penalty.
 void Stage::WarnTooLate(const model::Edit& edit) const {
@@ -226,6 +235,7 @@ void Stage::Fire(Span span) {
   links_.budget->ChargeElements(fired.edit.added.size(), span);
   TakeIds();
   if (fired.edit.ChangesModel()) history_.push_back(state_);
+  if (links_.slice) NotePlaced(answers, fired.edit);
   if (row.dots) trace_spans_[static_cast<ElementId>(state_.model.entries.size())] = active_.span;
   Commit(fired.edit, span);
   if (row.calibrates) {  // what it stands on cannot be undone
@@ -335,11 +345,13 @@ void Stage::AskAgain() {
   if (row.manner == Manner::kGathers) {
     active_.points.clear();
     active_.point_spans.clear();
+    active_.point_notes.clear();
     return;
   }
   if (row.carries && !active_.points.empty()) {
     active_.points[0] = active_.points.back();
     active_.point_spans[0] = active_.point_spans.back();
+    active_.point_notes[0] = active_.point_notes.back();
   }
   for (std::size_t i = static_cast<std::size_t>(row.again); i < active_.answered.size(); ++i)
     active_.answered[i] = false;

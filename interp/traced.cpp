@@ -104,6 +104,7 @@ class Gathering {
   std::optional<camera::Trace> OfElement(const Trace& trace) {
     ElementPtr current = state_.model.Current(trace.of->id);
     if (!current) current = trace.of;
+    out_.elements.insert(current->id);
     const auto* curve = std::get_if<model::CurvePtr>(&current->geometry);
     if (!curve) return std::nullopt;
     const int first = static_cast<int>(out_.numbers.size());

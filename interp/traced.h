@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <span>
+#include <unordered_set>
 #include <vector>
 
 #include "camera/traces.h"
@@ -17,6 +18,7 @@ struct Traced {
   std::vector<std::vector<model::ElementId>> trace_ids;  // of each, by trace
   std::vector<model::Value> numbers;                     // by camera::NumberIndex, in SI
   std::vector<model::ElementId> number_owners;           // the trace that each stands for
+  std::unordered_set<model::ElementId> elements;         // those that traces are of
   double noise_px = 0.5;                                 // of the first trace
   bool noise_is_estimated = false;
 };
