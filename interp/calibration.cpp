@@ -97,9 +97,19 @@ void TellOpen(const camera::Photograph& photograph, const camera::Numbers& numbe
 geom::Result<std::vector<camera::Estimate>> EstimatesBy(const Method& method, const Traced& traced,
                                                         const camera::Numbers& numbers) {
   std::vector<camera::Estimate> estimates;
+  int before = 0;  // traces of the photographs before, for errors count through all
   for (const camera::Photograph& photograph : traced.photographs) {
     auto estimate = EstimateBy(method, photograph, numbers);
-    if (!estimate) return tl::unexpected(estimate.error());
+    if (!estimate) {
+      geom::Error error = estimate.error();
+      if (error.part < 0 && traced.photographs.size() > 1 && !photograph.name.empty()) {
+        error.detail = "`" + Printable(photograph.name) + "`: " + error.detail;
+      }
+      if (error.part >= 0) error.part += before;
+      if (error.other >= 0) error.other += before;
+      return tl::unexpected(std::move(error));
+    }
+    before += static_cast<int>(photograph.traces.size());
     TellOpen(photograph, numbers, &*estimate);
     estimates.push_back(*std::move(estimate));
   }
