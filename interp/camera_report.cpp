@@ -87,6 +87,23 @@ std::string ParameterLine(const camera::Estimate& estimate, Parameter parameter,
   return line;
 }
 
+// What was assumed, and what came of it.
+void AddPriors(const Photograph& photograph, std::vector<std::string>* lines) {
+  for (int p = 0; p < camera::kIntrinsics; ++p) {
+    const camera::Prior& prior = photograph.priors[p];
+    if (!(prior.sigma > 0)) continue;
+    const camera::ParameterRow& row = camera::kParameterRows[p];
+    const camera::ParameterEstimate& known = photograph.estimate->parameters[p];
+    std::string line = fmt::format("prior {} {:g} ± {:g}{}{}", row.symbol,
+                                   prior.value / row.per_unit, prior.sigma / row.per_unit,
+                                   row.unit.empty() || row.unit == "°" ? "" : " ", row.unit);
+    if (photograph.estimate->covariance.size() > 0) {
+      line += fmt::format(", priors are {:.0f} % of the result", 100 * known.shares.priors);
+    }
+    lines->push_back(std::move(line));
+  }
+}
+
 // From the camera to dots, a line each row.
 void AddCalibrationMatrix(const camera::Camera& camera, const camera::Frame& frame,
                           std::vector<std::string>* lines) {
@@ -154,6 +171,7 @@ std::vector<std::string> CameraReport(const model::Element& element, const Photo
   for (int p = 0; p < camera::kParameters; ++p) {
     lines.push_back(ParameterLine(estimate, static_cast<Parameter>(p), stated));
   }
+  AddPriors(photograph, &lines);
   if (estimate.determined()) {
     AddCalibrationMatrix(estimate.camera, photograph.frame, &lines);
   }

@@ -20,8 +20,8 @@ std::vector<Command> Collect() {
   for (const auto family :
        {PlaceCommands(), ChooseCommands(), CreateCommands(), TransformCommands(), ArrayCommands(),
         EditCommands(), ConstructCommands(), PlaneCommands(), ViewCommands(), OutputCommands(),
-        PhotographCommands(), TraceCommands(), CalibrateCommands(), HistoryCommands(),
-        LaterCommands()}) {
+        PhotographCommands(), PriorCommands(), TraceCommands(), CalibrateCommands(),
+        HistoryCommands(), LaterCommands()}) {
     all.insert(all.end(), family.begin(), family.end());
   }
   std::stable_sort(all.begin(), all.end(), [](const Command& a, const Command& b) {

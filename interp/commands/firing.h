@@ -27,6 +27,9 @@ std::optional<CommandError> TooFar(const Answers& answers);
 // An error if nothing is chosen.
 std::optional<CommandError> NothingChosen(const Answers& answers);
 
+// As NothingChosen; photographs and traces, which have no place in space, are refused, too.
+std::optional<CommandError> NothingToMove(const Answers& answers);
+
 // An edit that adds one element with the settings now in force.
 CommandResult Make(const model::State& state, model::Geometry geometry);
 // As Make; takes what it was made from out of the model, unless keep=true.
