@@ -55,6 +55,40 @@ ordered_json CovarianceJson(const Estimate& estimate) {
   return rows;
 }
 
+// How much of each parameter's information came from where.
+ordered_json SharesJson(const Estimate& estimate) {
+  if (estimate.covariance.size() == 0) return nullptr;
+  return WithPositions([&](Parameter p) -> ordered_json {
+    if (estimate.parameters[p].free()) return nullptr;
+    const camera::Shares& shares = estimate.parameters[p].shares;
+    return {{"pixels", shares.pixels}, {"metric", shares.metric}, {"priors", shares.priors}};
+  });
+}
+
+// What was assumed, by the parameters' symbols.
+ordered_json PriorsJson(const model::Photograph& photograph) {
+  ordered_json priors = ordered_json::object();
+  for (int i = 0; i < camera::kIntrinsics; ++i) {
+    const camera::Prior& prior = photograph.priors[i];
+    const double unit = camera::kParameterRows[i].per_unit;
+    if (!(prior.sigma > 0)) continue;
+    priors[camera::kParameterNames[i]] = {{"value", prior.value / unit},
+                                          {"sigma", prior.sigma / unit}};
+  }
+  return priors;
+}
+
+// Mean and deviation over resamplings, in the covariance's order.
+ordered_json TrialsJson(const camera::TrialSpread& trials) {
+  ordered_json mean = ordered_json::array(), deviation = ordered_json::array();
+  for (int i = 0; i < camera::kParameters; ++i) {
+    const double unit = camera::kParameterRows[i].per_unit;
+    mean.push_back(trials.mean[i] / unit);
+    deviation.push_back(trials.deviation[i] / unit);
+  }
+  return {{"trials", trials.trials}, {"mean", mean}, {"deviation", deviation}};
+}
+
 // SI, and degrees for angles.
 ordered_json UnknownsJson(const model::Photograph& photograph) {
   ordered_json unknowns = ordered_json::object();
@@ -72,6 +106,20 @@ ordered_json UnknownsJson(const model::Photograph& photograph) {
         {"at_bound", unknown.at_bound}};
   }
   return unknowns;
+}
+
+// Traces count from 1, as in messages.
+ordered_json RectanglesJson(const Estimate& estimate) {
+  ordered_json rectangles = ordered_json::array();
+  for (const camera::RectangleView& rectangle : estimate.rectangles) {
+    ordered_json homography = ordered_json::array();
+    for (int i = 0; i < 3; ++i) {
+      const auto row = rectangle.dot_from_metres.row(i);
+      homography.push_back({row[0], row[1], row[2]});
+    }
+    rectangles.push_back({{"trace", rectangle.trace + 1}, {"homography", std::move(homography)}});
+  }
+  return rectangles;
 }
 
 }  // namespace
@@ -103,6 +151,9 @@ ordered_json CameraJson(const model::Element& element, const model::Photograph& 
   json["dof"] = estimate.dof;
   json["noise_px"] = estimate.noise_px;
   json["noise_is_estimated"] = estimate.noise_is_estimated;
+  json["shares"] = SharesJson(estimate);
+  json["priors"] = PriorsJson(photograph);
+  if (estimate.trials.trials > 0) json["trials"] = TrialsJson(estimate.trials);
   json["alternatives"] = ordered_json::array();
   for (const camera::Alternative& other : estimate.alternatives) {
     ordered_json alternative = PoseJson(value_of(other.camera));
@@ -118,13 +169,7 @@ ordered_json CameraJson(const model::Element& element, const model::Photograph& 
   }
   json["undetermined"] = estimate.undetermined;
   json["warnings"] = estimate.warnings;
-  if (estimate.facade_homography.isZero(0)) return json;
-  ordered_json homography = ordered_json::array();
-  for (int i = 0; i < 3; ++i) {
-    const auto row = estimate.facade_homography.row(i);
-    homography.push_back({row[0], row[1], row[2]});
-  }
-  json["facade_homography"] = std::move(homography);
+  if (!estimate.rectangles.empty()) json["rectangles"] = RectanglesJson(estimate);
   return json;
 }
 

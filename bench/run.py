@@ -13,6 +13,7 @@ import sys
 import time
 from dataclasses import dataclass
 from itertools import chain
+from math import cos, radians, sin
 from pathlib import Path
 from typing import Callable, Optional
 
@@ -86,6 +87,47 @@ def figure_six(name, with_picture):
     script = (ROOT / "scripts" / "cruciform_dome.trn").read_text(encoding="utf-8").splitlines()
     kept = [line for line in script if "render" not in line and "export" not in line]
     return write(name, kept + (["set view phong antialias | render all"] if with_picture else []))
+
+
+def dot_of(point):
+    """Where a camera of 35 mm that stands at the right before the building sees a point, in pixels
+    (docs/camera.md, "Conventions")."""
+    tilt, pan = radians(12), radians(25)
+    x, y, z = point[0] - 34, point[1] + 38, point[2] - 2
+    right, ahead = cos(pan) * x + sin(pan) * y, cos(pan) * y - sin(pan) * x
+    depth, up = cos(tilt) * ahead + sin(tilt) * z, cos(tilt) * z - sin(tilt) * ahead
+    pitch = 36 / 1600
+    return 799.5 + 35 / pitch * right / depth, 533 - 35 / pitch * up / depth
+
+
+def traced_script(name):
+    """A building of ten storeys: 200 traced edges, and the height of each storey to be found."""
+    def edge(start, end, text):
+        noise = ((0.31 * sum(start) + 0.17 * sum(end)) % 1) - 0.5
+        dots = " ".join(f"dot={x:.3f},{y + noise:.3f}" for x, y in map(dot_of, (start, end)))
+        return f"trace edge from={text[0]} to={text[1]} {dots}"
+
+    shutil.copy(ROOT / "tests" / "language" / "photograph" / "facade.png", FOLDER)
+
+    def lines():
+        yield 'attach photo "facade.png" format=36mm,24.0075mm as tower'
+        for k in range(10):
+            yield f"unknown z{k} = {2.05 * (k + 1):.3f}m +- 10%"
+        for z in (0, 24):
+            for a, b in (((0, 0), (9, 0)), ((10, 0), (20, 0)), ((20, 0), (20, 14))):
+                yield edge((*a, z), (*b, z), [f"[{x},{y},{z}]" for x, y in (a, b)])
+        for x, y in ((0, 0), (10, 0), (20, 0), (20, 14)):
+            yield edge((x, y, 0), (x, y, 24), [f"[{x},{y},0]", f"[{x},{y},24]"])
+        for k in range(10):
+            z = 2 * (k + 1)
+            for x in range(1, 12):
+                yield edge((1.5 * x, 0, z), (1.5 * x + 1, 0, z),
+                           [f"[{1.5 * x},0,z{k}]", f"[{1.5 * x + 1},0,z{k}]"])
+            for y in range(1, 9):
+                yield edge((20, 1.5 * y, z), (20, 1.5 * y + 1, z),
+                           [f"[20,{1.5 * y},z{k}]", f"[20,{1.5 * y + 1},z{k}]"])
+        yield "calibrate"
+    return write(name, lines())
 
 
 def journal_of(script, name):
@@ -187,6 +229,12 @@ def picture():
                  tranos("run", script, "-o", "output"), seconds=1)
 
 
+def traces():
+    script = traced_script("traces.trn")
+    return Bench("traces", "200 traced lines, 10 unknowns",
+                 tranos("run", script, "--no-output"), seconds=0.05)
+
+
 def replay():
     journal = journal_of(point_script("replay.trn", 50_000), "replay.jsonl")
     return Bench("replay", "replay of 100 000 key-ins", tranos("replay", journal), seconds=1)
@@ -201,7 +249,8 @@ def diff():
 
 BENCHES: dict[str, Callable[[], Bench]] = {
     make.__name__: make
-    for make in (start, points, points_lua, points_glb, loop, dome, picture, replay, diff)}
+    for make in (start, points, points_lua, points_glb, loop, dome, picture, traces, replay,
+                             diff)}
 
 
 # ---- the table
@@ -240,12 +289,18 @@ def verdict(bench, ours, theirs):
     return "MISSED" if missed else "ok"
 
 
+def ratio_text(bench, ours, theirs):
+    """Of our time to the peer's, or to the target where there is no peer."""
+    other = theirs.seconds if theirs else bench.seconds
+    return f"{ours.seconds / other:.2f}" if other else "-"
+
+
 def report(make):
     bench = make()
     costs = measure([bench.ours] + ([bench.peer] if bench.peer else []))
     ours, theirs = costs[0], costs[1] if bench.peer else None
     row(bench.what, targets_text(bench), cost_text(ours), cost_text(theirs) if theirs else "-",
-        f"{ours.seconds / theirs.seconds:.2f}" if theirs else "-", verdict(bench, ours, theirs))
+        ratio_text(bench, ours, theirs), verdict(bench, ours, theirs))
 
 
 def main():

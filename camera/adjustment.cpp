@@ -332,13 +332,14 @@ bool SeesFacades(std::span<const Photograph> photographs, const Layout& layout,
   });
 }
 
-Mat3 DotFromFacade(const Photograph& photograph, int index, const Layout& layout, int facade,
-                   const Eigen::VectorXd& state) {
-  const FacadePlane plane = PlaneOf(layout, facade, state);
-  const ProjectionMatrix dot_from_world = DotFromWorld(CameraAt(state, index), photograph.frame);
-  Eigen::Matrix<double, 4, 3> world_from_facade;
-  world_from_facade << plane.right(), Vec3::UnitZ(), plane.distance_m * plane.away(), 0, 0, 1;
-  return dot_from_world * world_from_facade;
+Mat3 DotFromRectangle(const Photograph& photograph, const TraceRows& rows, const Layout& layout,
+                      const Eigen::VectorXd& state) {
+  const FacadePlane plane = PlaneOf(layout, FacadeOf(photograph.traces[rows.trace]), state);
+  const int column = layout.trace_column[rows.photograph][rows.trace];
+  const Vec2 first = column < 0 ? Vec2(Vec2::Zero()) : Vec2(state.segment<2>(column));
+  Eigen::Matrix<double, 4, 3> world_from_rectangle;
+  world_from_rectangle << plane.right(), Vec3::UnitZ(), plane.Point(first), 0, 0, 1;
+  return DotFromWorld(CameraAt(state, rows.photograph), photograph.frame) * world_from_rectangle;
 }
 
 geom::Result<Linearised> Linearise(std::span<const Photograph> photographs,

@@ -68,9 +68,10 @@ geom::Result<Linearised> Linearise(std::span<const Photograph>, std::span<const 
 bool SeesFacades(std::span<const Photograph>, const Layout&, const Numbers&,
                  const Eigen::VectorXd& state);
 
-// Dots of a photograph from metres on a facade, to the right and upward.
-Mat3 DotFromFacade(const Photograph&, int photograph, const Layout&, int facade,
-                   const Eigen::VectorXd& state);
+// Dots from metres on the facade of the rectangle with these rows, to the right and upward from its
+// first dot.
+Mat3 DotFromRectangle(const Photograph&, const TraceRows&, const Layout&,
+                      const Eigen::VectorXd& state);
 
 inline Camera CameraAt(const Eigen::VectorXd& state, int photograph) {
   return {state.segment<kParameters>(kParameters * photograph)};

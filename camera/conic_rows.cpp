@@ -3,6 +3,7 @@
 
 #include <Eigen/QR>
 #include <Eigen/SVD>
+#include <algorithm>
 #include <cmath>
 
 #include "camera/homography.h"
@@ -69,6 +70,33 @@ Vec3 ScaledDirection(const Vec2& a, const Vec2& b, const Vec3& vanishing_line) {
   return q / vanishing_line.dot(q) - p / vanishing_line.dot(p);
 }
 
+// The conic through dots, of least algebraic distance.
+std::optional<Mat3> ImageOfCircle(const CircleTrace& trace, const Conditioning& conditioning) {
+  Eigen::MatrixXd rows(std::max<Eigen::Index>(6, std::ssize(trace.dots_px)), 6);
+  rows.setZero();
+  for (Eigen::Index i = 0; i < std::ssize(trace.dots_px); ++i) {
+    const Vec2 p = conditioning.PointFromDot(trace.dots_px[static_cast<size_t>(i)]);
+    rows.row(i) << p.x() * p.x(), p.x() * p.y(), p.y() * p.y(), p.x(), p.y(), 1;
+  }
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(rows, Eigen::ComputeFullV);
+  if (!(svd.singularValues()[4] > kRank * svd.singularValues()[0])) return {};
+  const Eigen::VectorXd c = svd.matrixV().col(5);
+  Mat3 conic;
+  conic << c[0], c[1] / 2, c[3] / 2, c[1] / 2, c[2], c[4] / 2, c[3] / 2, c[4] / 2, c[5];
+  return conic;
+}
+
+// The two points x ± iy at which the image of a circle meets its plane's vanishing line: they are
+// the images of the circular points, so that x and y are like orthogonal edges of equal length
+// (Hartley and Zisserman, Multiple View Geometry, 2.7). None if they are real: no circle's image.
+std::optional<std::pair<Vec3, Vec3>> CircularPoints(const Mat3& conic, const Vec3& line) {
+  const Vec3 u = line.unitOrthogonal(), v = line.cross(u);
+  const double a = u.dot(conic * u), b = u.dot(conic * v), c = v.dot(conic * v);
+  const double rest = a * c - b * b;
+  if (!(rest > 0)) return {};
+  return std::pair(Vec3(u - b / c * v), Vec3(std::sqrt(rest) / c * v));
+}
+
 }  // namespace
 
 std::vector<Conic> ConicRows::all() const {
@@ -116,18 +144,28 @@ ConicRows ConicRowsOf(const Photograph& photograph, const Numbers& numbers) {
   // The main facade's vanishing line comes better from the axes than from a small rectangle.
   if (p[0] && p[2])
     vanishing_lines.insert(vanishing_lines.begin(), {0, p[0]->cross(*p[2]).normalized()});
+  const auto vanishing_line = [&](int facade) -> const Vec3* {
+    const auto found = std::ranges::find(vanishing_lines, facade, &std::pair<int, Vec3>::first);
+    return found == vanishing_lines.end() ? nullptr : &found->second;
+  };
+  const auto add_like = [&](const Vec3& u, const Vec3& v) {
+    if (!u.allFinite() || !v.allFinite() || u.isZero() || v.isZero()) return;
+    result.metric.push_back(EqualLengthUnitRow(u, v));
+    result.metric.push_back(OrthogonalRow(u.normalized(), v.normalized()));
+  };
   for (const Trace& trace : photograph.traces) {
-    const auto* ratio = std::get_if<RatioTrace>(&trace);
-    if (!ratio) continue;
-    for (const auto& [facade, line] : vanishing_lines) {
-      if (facade != ratio->facade) continue;
+    if (const auto* ratio = std::get_if<RatioTrace>(&trace)) {
+      const Vec3* const line = vanishing_line(ratio->facade);
+      if (!line) continue;
       const auto dot = [&](int i) { return conditioning.PointFromDot(ratio->dots_px[i]); };
-      const Vec3 u = ScaledDirection(dot(0), dot(1), line);
-      const Vec3 v = numbers.values[ratio->ratio] * ScaledDirection(dot(2), dot(3), line);
-      if (!u.allFinite() || !v.allFinite() || u.isZero() || v.isZero()) break;
-      result.metric.push_back(EqualLengthUnitRow(u, v));
-      result.metric.push_back(OrthogonalRow(u.normalized(), v.normalized()));
-      break;
+      add_like(ScaledDirection(dot(0), dot(1), *line),
+               numbers.values[ratio->ratio] * ScaledDirection(dot(2), dot(3), *line));
+    } else if (const auto* circle = std::get_if<CircleTrace>(&trace)) {
+      const Vec3* const line = vanishing_line(circle->facade);
+      const std::optional<Mat3> conic = ImageOfCircle(*circle, conditioning);
+      if (!line || !conic) continue;
+      const auto points = CircularPoints(*conic, *line);
+      if (points) add_like(points->first, points->second);
     }
   }
   return result;

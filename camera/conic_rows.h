@@ -18,7 +18,8 @@ struct ConicRows {
   AxisPoints points;
   std::vector<Conic> orthogonal;  // of `points`: XZ, YZ, XY
   // Equal lengths: of the axes, from edges in space; of rectangles, with the orthogonality of their
-  // sides; of ratios. Each about 1 in size.
+  // sides; of ratios and of circles, where the facade's vanishing line is known. Each about 1 in
+  // size.
   std::vector<Conic> metric;
 
   std::vector<Conic> all() const;

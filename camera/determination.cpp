@@ -37,6 +37,7 @@ Spectrum SpectrumOf(const Eigen::MatrixXd& scaled) {
 }
 
 constexpr double kShare = 1e-6;
+constexpr const char* kPrincipalPoint = "principal point";
 
 // In scales: what data alone must tell, and what priors must leave. With priors a number is given
 // as theirs and its deviation is told, however large, until nothing is left of the number: until f
@@ -90,6 +91,15 @@ std::string Listed(const std::vector<std::string>& terms) {
   return text;
 }
 
+// What would determine a camera: a prior on the principal point, too, unless there is one.
+std::string Advice(const std::vector<Quantity>& quantities) {
+  const bool is_free = std::ranges::any_of(quantities, [](const Quantity& quantity) {
+    return quantity.term == kPrincipalPoint && !quantity.has_prior;
+  });
+  if (!is_free) return "a second independent ratio or a third dimension";
+  return "a second independent ratio, a third dimension or a prior on the principal point";
+}
+
 // What trades off in some directions (columns of `open`), and what would close them.
 std::string Sentence(const Eigen::MatrixXd& open, const std::vector<Quantity>& quantities) {
   std::vector<std::string> terms;
@@ -108,9 +118,7 @@ std::string Sentence(const Eigen::MatrixXd& open, const std::vector<Quantity>& q
   const std::string what =
       Listed(terms) + (terms.size() > 1 ? " trade off: " : " is not seen by anything traced: ");
   if (has_limited) {
-    return what +
-           "a second independent ratio, a third dimension or a prior on the principal "
-           "point closes it";
+    return what + Advice(quantities) + " closes it";
   }
   if (has_unknown) return what + "a known length, or a deviation of the unknown, closes it";
   return what + "an edge or a point with a known place, or a known length, closes it";
@@ -174,8 +182,7 @@ std::string HeldSentence(const Judgement& by_data, const std::vector<std::string
       terms.push_back(quantities[i].term);
   }
   return "only the stated deviation of " + Listed(holders) + " holds " + Listed(terms) +
-         ", too loosely to tell: a smaller one, a second independent ratio, a third dimension or a "
-         "prior on the principal point closes it";
+         ", too loosely to tell: a smaller one, " + Advice(quantities) + " closes it";
 }
 
 }  // namespace
@@ -184,8 +191,8 @@ std::vector<Quantity> QuantitiesOf(const Camera& camera, const Frame& frame, dou
   const double angle = 2 * kPi / 180, place = 0.1 * distance_m, principal = 0.2 * frame.size_mm.x();
   return {{Kind::kLimited, 0.2 * std::abs(camera[kFocal]), "focal length"},
           {Kind::kLimited, 0.2, "aspect"},
-          {Kind::kLimited, principal, "principal point"},
-          {Kind::kLimited, principal, "principal point"},
+          {Kind::kLimited, principal, kPrincipalPoint},
+          {Kind::kLimited, principal, kPrincipalPoint},
           {Kind::kLimited, angle, "skew"},
           {Kind::kLimited, angle, "tilt"},
           {Kind::kLimited, angle, "pan"},

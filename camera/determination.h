@@ -24,6 +24,7 @@ struct Quantity {
   double scale = 1;
   std::string term;          // in words; several may share one ("principal point")
   bool is_measured = false;  // an unknown whose own deviation, its `scale`, is among the data
+  bool has_prior = false;    // a parameter of a camera of which something is assumed
 };
 
 // Limits: 2° for angles, 20 % of f, 0.2 of the aspect, 20 % of the frame's width for the principal

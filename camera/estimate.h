@@ -39,7 +39,15 @@ struct UnknownEstimate {
 struct Alternative {
   Camera camera;
   double chi2 = 0;
-  Eigen::MatrixXd covariance;  // as Estimate's; empty where it was not worked out
+  Eigen::MatrixXd covariance;  // as Estimate's, with its deviations
+  Eigen::MatrixXd deviations;
+};
+
+// Where a traced rectangle's plane is in the picture, whatever camera took it.
+struct RectangleView {
+  int trace = 0;  // index in Photograph::traces
+  // Dots from metres on its facade, to the right and upward from its first dot.
+  Mat3 dot_from_metres = Mat3::Zero();
 };
 
 // What remains between a trace and what the camera says it should be.
@@ -65,6 +73,10 @@ struct Estimate {
   ParameterEstimate parameters[kParameters];
   // Of the camera's parameters and then the unknowns, in their order; free ones have zero rows.
   Eigen::MatrixXd covariance;
+  // The same as what it comes from: a row for each of the covariance's, a column for each of the
+  // independent sources, of deviation 1, that all estimates of one adjustment share. D Dᵀ is the
+  // covariance, and D of one with Dᵀ of another that of the two.
+  Eigen::MatrixXd deviations;
   double chi2 = 0;
   int dof = 0;
   double noise_px = 0;              // stated, or estimated from the residuals
@@ -78,8 +90,7 @@ struct Estimate {
   std::vector<std::string> warnings;      // near-degenerate vanishing points, tilt, pan
   std::vector<ProfilePoint> profile;
   TrialSpread trials;
-  Mat3 facade_homography =
-      Mat3::Zero();  // dots from metres on facade 0, where a rectangle gives it
+  std::vector<RectangleView> rectangles;
 
   bool determined() const {
     for (const ParameterEstimate& p : parameters) {

@@ -42,10 +42,12 @@ std::vector<Quantity> QuantitiesOfAll(std::span<const Photograph> photographs,
   std::vector<Quantity> quantities;
   for (int p = 0; p < layout.cameras; ++p) {
     const Camera camera = CameraAt(refined.state, p);
-    for (const Quantity& q : QuantitiesOf(camera, photographs[p].frame,
-                                          DistanceOf(photographs[p], camera, refined.numbers))) {
-      quantities.push_back(q);
+    std::vector<Quantity> of_camera = QuantitiesOf(
+        camera, photographs[p].frame, DistanceOf(photographs[p], camera, refined.numbers));
+    for (int i = 0; i < kIntrinsics; ++i) {
+      of_camera[i].has_prior = photographs[p].priors[i].sigma > 0;
     }
+    std::ranges::move(of_camera, std::back_inserter(quantities));
   }
   for (int i = 0; i < layout.unknowns; ++i) {
     // A literal's error is near zero, so that its value says nothing of its size.
@@ -75,14 +77,15 @@ std::vector<Shares> SharesOf(const Layout& layout, const Determined& determined)
   return shares;
 }
 
-Eigen::MatrixXd CovarianceOf(const Eigen::MatrixXd& all, const Layout& layout, int photograph) {
+// Those of a photograph's camera, and then of the unknowns.
+Eigen::VectorXi ColumnsOf(const Layout& layout, int photograph) {
   const int n = kParameters + layout.unknowns;
   Eigen::VectorXi columns(n);
   for (int i = 0; i < n; ++i) {
     columns[i] =
         i < kParameters ? kParameters * photograph + i : layout.unknown_column() + i - kParameters;
   }
-  return all(columns, columns);
+  return columns;
 }
 
 // Angles outside which methods by vanishing points are near to where they break down, and inside
@@ -117,11 +120,26 @@ void WarnOfVanishingPoints(const Photograph& photograph, const Numbers& numbers,
   }
 }
 
-bool HasFacade(const Photograph& photograph, int facade) {
-  return std::ranges::any_of(photograph.traces, [&](const Trace& trace) {
-    const auto* rectangle = std::get_if<RectangleTrace>(&trace);
-    return rectangle && rectangle->facade == facade;
-  });
+// A triangular root of the covariance of the unknowns and then all cameras, its rows in the order
+// of the state: so the sources of the unknowns are the first ones, whatever a pose is. Rows of what
+// is not determined are zero.
+Eigen::MatrixXd RootOf(const Eigen::MatrixXd& covariance, const Layout& layout) {
+  constexpr double kRounding = 1e-13;
+  const int n = layout.nuisance_column();
+  Eigen::VectorXi order(n);
+  for (int i = 0; i < n; ++i) order[i] = (layout.unknown_column() + i) % n;
+  const Eigen::VectorXd sigma = covariance.diagonal().head(n).cwiseMax(0).cwiseSqrt();
+  const auto scale = [&](int column) { return sigma[column] > 0 ? 1 / sigma[column] : 0.0; };
+  Eigen::MatrixXd root = Eigen::MatrixXd::Zero(n, n);
+  for (int j = 0; j < n; ++j) {
+    for (int i = j; i < n; ++i) {
+      const double correlation = covariance(order[i], order[j]) * scale(order[i]) * scale(order[j]);
+      const double rest = correlation - root.row(order[i]).head(j).dot(root.row(order[j]).head(j));
+      if (i == j && rest <= kRounding) break;
+      root(order[i], j) = i == j ? std::sqrt(rest) : rest / root(order[j], j);
+    }
+  }
+  return sigma.asDiagonal() * root;
 }
 
 }  // namespace
@@ -144,6 +162,7 @@ std::vector<Estimate> EstimatesOf(std::span<const Photograph> photographs,
   const Determined determined = DeterminedOf(photographs, unknowns, layout, refined, at);
   const Determination& d = determined.determination;
   const std::vector<Shares> shares = SharesOf(layout, determined);
+  const Eigen::MatrixXd root = RootOf(d.covariance, layout);
   const auto sigma = [&](int column) {
     return std::sqrt(std::max(0.0, d.covariance(column, column)));
   };
@@ -171,19 +190,22 @@ std::vector<Estimate> EstimatesOf(std::span<const Photograph> photographs,
       parameter.sigma = parameter.free() ? std::numeric_limits<double>::quiet_NaN() : sigma(column);
       parameter.shares = shares[column];
     }
-    estimate.covariance = CovarianceOf(d.covariance, layout, p);
+    const Eigen::VectorXi columns = ColumnsOf(layout, p);
+    estimate.covariance = d.covariance(columns, columns);
+    estimate.deviations = root(columns, Eigen::all);
     if (!estimate.parameters[kOmega].free() && !estimate.parameters[kPhi].free())
       WarnOfAngles(estimate.camera, estimate.warnings);
     WarnOfVanishingPoints(photographs[p], refined.numbers, estimate.warnings);
-    if (HasFacade(photographs[p], 0)) {
-      estimate.facade_homography = DotFromFacade(photographs[p], p, layout, 0, refined.state);
-    }
     for (std::size_t i = 0; i < layout.traces.size(); ++i) {
       const TraceRows& rows = layout.traces[i];
       if (rows.photograph != p) continue;
       const auto r = at.residuals.segment(rows.first_row, rows.rows);
       estimate.residuals.push_back(
           {rows.trace, std::vector<double>(r.begin(), r.end()), refined.weights[i]});
+      if (std::holds_alternative<RectangleTrace>(photographs[p].traces[rows.trace])) {
+        estimate.rectangles.push_back(
+            {rows.trace, DotFromRectangle(photographs[p], rows, layout, refined.state)});
+      }
     }
     estimates.push_back(std::move(estimate));
   }

@@ -28,6 +28,20 @@ struct NormalEquations {
 
 Vec3 PointOf(const Numbers& numbers, NumberIndex first) { return numbers.values.segment<3>(first); }
 
+void AddCurve(const View& view, const Numbers& numbers, const CurveTrace& trace,
+              NormalEquations& sum) {
+  std::vector<Seen> polyline;
+  polyline.reserve(static_cast<std::size_t>(trace.points));
+  for (int i = 0; i < trace.points; ++i) {
+    polyline.push_back(See(view, PointOf(numbers, trace.first + 3 * i)));
+  }
+  for (const Vec2& dot : trace.dots_px) {
+    const CurveResidual r = ResidualOfCurve(view, dot, trace.sigma_px, polyline);
+    sum.Add(r.residual);
+    if (r.segment < 0) sum.chi2 = std::numeric_limits<double>::infinity();
+  }
+}
+
 NormalEquations Linearise(const Photograph& photograph, const Numbers& numbers,
                           const ParameterVector& parameters) {
   const View view = ViewOf(parameters, photograph.frame);
@@ -45,6 +59,8 @@ NormalEquations Linearise(const Photograph& photograph, const Numbers& numbers,
            PointResiduals(view, point->dot_px, point->sigma_px, PointOf(numbers, point->at))) {
         sum.Add(r);
       }
+    } else if (const auto* curve = std::get_if<CurveTrace>(&trace)) {
+      AddCurve(view, numbers, *curve, sum);
     }
   }
   for (int i = 0; i < kIntrinsics; ++i) {
@@ -87,7 +103,7 @@ bool NeedsCameraAlone(const Photograph& photograph) {
   return std::ranges::all_of(photograph.traces, [](const Trace& trace) {
     return std::holds_alternative<EdgeTrace>(trace) ||
            std::holds_alternative<DirectionTrace>(trace) ||
-           std::holds_alternative<PointTrace>(trace);
+           std::holds_alternative<PointTrace>(trace) || std::holds_alternative<CurveTrace>(trace);
   });
 }
 
@@ -140,7 +156,11 @@ bool SeesTraces(const Photograph& photograph, const Numbers& numbers, const Came
     if (const auto* edge = std::get_if<EdgeTrace>(&trace))
       return depth(edge->from) > 0 || depth(edge->to) > 0;
     if (const auto* point = std::get_if<PointTrace>(&trace)) return depth(point->at) > 0;
-    return true;
+    const auto* curve = std::get_if<CurveTrace>(&trace);
+    for (int i = 0; curve && i < curve->points; ++i) {
+      if (depth(curve->first + 3 * i) > 0) return true;
+    }
+    return !curve;
   });
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The likeliest camera for traced lines and points of known place or direction, alone: no unknowns,
-// no facades. Fixed-size Gauss–Newton with Levenberg's damping; nothing is allocated.
+// The likeliest camera for traced lines, points and curves of known place or direction, alone: no
+// unknowns, no facades. Fixed-size Gauss–Newton with Levenberg's damping; nothing is allocated but
+// the images of curves.
 #pragma once
 
 #include <optional>
@@ -19,7 +20,7 @@ struct CameraFit {
   bool converged = false;
 };
 
-// Whether all traces are edges in space, directions and points.
+// Whether all traces are edges in space, directions, points and curves.
 bool NeedsCameraAlone(const Photograph&);
 
 // The camera of least χ² near `start`, the intrinsic priors included (DESIGN.md, "How a photograph
@@ -29,7 +30,7 @@ bool NeedsCameraAlone(const Photograph&);
 CameraFit FitCamera(const Photograph&, const Numbers&, const Camera& start,
                     std::optional<double> skew_rad = {});
 
-// Whether the points, and at least one end of each edge in space, are before the camera. Of the
+// Whether the points, and a part of each edge and curve in space, are before the camera. Of the
 // cameras that give the same lines, this tells the one that took the picture.
 bool SeesTraces(const Photograph&, const Numbers&, const Camera&);
 

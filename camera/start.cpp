@@ -7,6 +7,7 @@
 
 #include "camera/conic_rows.h"
 #include "camera/dlt.h"
+#include "camera/likelihood.h"
 
 namespace tranos::camera {
 namespace {
@@ -37,11 +38,36 @@ Assumed AssumedOf(const Photograph& photograph) {
           {value(kPrincipalX, 0) / scale(0, 0), value(kPrincipalY, 0) / scale(1, 1)}};
 }
 
+double Square(double x) { return x * x; }
+
+struct SpaceCurve {
+  std::vector<Vec3> points_m;
+  std::vector<Vec2> dots;  // conditioned
+  double weight;           // 1/σ
+};
+
+std::vector<SpaceCurve> SpaceCurvesOf(const Photograph& photograph, const Numbers& numbers) {
+  const Conditioning conditioning = ConditioningOf(photograph.frame);
+  std::vector<SpaceCurve> curves;
+  for (const Trace& trace : photograph.traces) {
+    const auto* curve = std::get_if<CurveTrace>(&trace);
+    if (!curve) continue;
+    SpaceCurve& result = curves.emplace_back();
+    result.weight = conditioning.scale_px / curve->sigma_px;
+    for (int i = 0; i < curve->points; ++i)
+      result.points_m.emplace_back(numbers.values.segment<3>(curve->first + 3 * i));
+    for (const Vec2& dot : curve->dots_px) result.dots.push_back(conditioning.PointFromDot(dot));
+  }
+  return curves;
+}
+
 // Everything that candidates are made of and judged by.
 struct Evidence {
   const Photograph& photograph;
+  const Numbers& numbers;
   Conditioning conditioning;
   SpaceTraces traces;
+  std::vector<SpaceCurve> curves;
   AxisLines lines;
   ConicRows rows;
   Assumed assumed;
@@ -71,12 +97,35 @@ Evidence Thinned(const Evidence& evidence) {
   return some;
 }
 
+// Σ of squared whitened distances of the dots of curves from their images.
+double CurveMisfit(const std::vector<SpaceCurve>& curves, const ConditionedCamera& camera) {
+  const Mat3 m = camera.inverse_calibration.inverse() * camera.camera_from_world;
+  double sum = 0;
+  std::vector<Vec2> image;
+  for (const SpaceCurve& curve : curves) {
+    image.clear();
+    for (const Vec3& point : curve.points_m) {
+      const Vec3 x = m * (point - camera.position_m);
+      if (x.z() > 0) image.push_back(x.hnormalized());
+    }
+    for (const Vec2& dot : curve.dots) {
+      double least = std::numeric_limits<double>::infinity();
+      for (size_t i = 0; i + 1 < image.size(); ++i) {
+        const Vec2 along = image[i + 1] - image[i];
+        const double share =
+            std::clamp((dot - image[i]).dot(along) / along.squaredNorm(), 0.0, 1.0);
+        least = std::min(least, (dot - image[i] - share * along).squaredNorm());
+      }
+      sum += least * Square(curve.weight);
+    }
+  }
+  return sum;
+}
+
 struct Candidate {
   ConditionedCamera camera;
   double score;
 };
-
-double Square(double x) { return x * x; }
 
 // How far a camera is from usual ones, in deviations of a wide prior or those declared.
 double Unusual(const Camera& camera, const Photograph& photograph) {
@@ -97,6 +146,7 @@ double Unusual(const Camera& camera, const Photograph& photograph) {
 double ScoreOf(const Evidence& evidence, const ConditionedCamera& camera) {
   double score = Unusual(CameraOf(camera, evidence.photograph.frame), evidence.photograph);
   if (!evidence.traces.empty()) score += PenaltyOf(evidence.traces, camera);
+  score += CurveMisfit(evidence.curves, camera);
   const Mat3 k = camera.inverse_calibration.inverse();
   const Mat3 left = k * camera.camera_from_world;
   for (int axis = 0; axis < 3; ++axis)
@@ -126,8 +176,9 @@ struct Candidates {
   }
   // Whether the best fits about as well as noise allows.
   bool Good() const {
-    const double rows =
+    double rows =
         2.0 * static_cast<double>(evidence.traces.edges.size() + evidence.traces.points.size());
+    for (const SpaceCurve& curve : evidence.curves) rows += static_cast<double>(curve.dots.size());
     return !found.empty() && found[0].score < 10 + 3 * rows;
   }
 };
@@ -200,10 +251,39 @@ void AddFocalLengths(const Evidence& evidence, Candidates* candidates) {
   }
 }
 
+// Where curves have their middles and, on the average, their extents; a rotation and a calibration
+// given. Dots on a part of a curve are off by as much, which is little beside its distance.
+Vec3 PositionFromCurves(const std::vector<SpaceCurve>& curves, const Mat3& inverse, const Mat3& r) {
+  Vec3 sum = Vec3::Zero();
+  for (const SpaceCurve& curve : curves) {
+    Vec3 middle_m = Vec3::Zero();
+    Vec2 middle = Vec2::Zero();
+    for (const Vec3& point : curve.points_m)
+      middle_m += point / static_cast<double>(curve.points_m.size());
+    for (const Vec2& dot : curve.dots) middle += dot / static_cast<double>(curve.dots.size());
+    double extent_m = 0, extent = 0;
+    for (const Vec3& point : curve.points_m)
+      extent_m = std::max(extent_m, (r * (point - middle_m)).head<2>().norm());
+    const Vec3 ray = inverse * middle.homogeneous();
+    for (const Vec2& dot : curve.dots)
+      extent = std::max(extent, (inverse * dot.homogeneous() - ray).norm());
+    sum += middle_m - extent_m / std::max(extent, 1e-3) * (r.transpose() * ray);
+  }
+  return sum / static_cast<double>(curves.size());
+}
+
+geom::Result<Vec3> PositionOf(const Evidence& evidence, const Mat3& inverse, const Mat3& r) {
+  if (evidence.curves.empty()) return PositionFromTraces(evidence.traces, inverse, r);
+  const auto position = evidence.traces.empty()
+                            ? tl::unexpected(geom::Error{geom::ErrorCode::kDegenerate, ""})
+                            : PositionFromTraces(evidence.traces, inverse, r);
+  return position ? position : PositionFromCurves(evidence.curves, inverse, r);
+}
+
 // Upright cameras that look in all directions, the position from the traces, the pose and the focal
-// length adjusted.
+// length adjusted; all of the camera where there are curves.
 void AddAllDirections(const Evidence& evidence, Candidates* candidates) {
-  if (evidence.traces.empty()) return;
+  if (evidence.traces.empty() && evidence.curves.empty()) return;
   for (const bool focal : {false, true}) {
     Candidates tried{evidence, {}};
     for (const double scale : {0.5, 1.0, 2.0})
@@ -214,12 +294,21 @@ void AddAllDirections(const Evidence& evidence, Candidates* candidates) {
           camera[kPhi] = pan * kPi / 6;
           const Mat3 r = CameraFromWorld(camera.parameters);
           const Mat3 inverse = evidence.assumed.Inverse(scale * kUsualFocal);
-          const auto position = PositionFromTraces(evidence.traces, inverse, r);
+          const auto position = PositionOf(evidence, inverse, r);
           if (position) tried.Add(ConditionedCamera{inverse, r, *position});
         }
     tried.Sort();
-    for (size_t i = 0; i < std::min<size_t>(12, tried.found.size()); ++i)
-      candidates->Add(RefinePose(evidence.traces, tried.found[i].camera, focal));
+    for (size_t i = 0; i < std::min<size_t>(12, tried.found.size()); ++i) {
+      if (evidence.curves.empty()) {
+        candidates->Add(RefinePose(evidence.traces, tried.found[i].camera, focal));
+        continue;
+      }
+      const Photograph& photograph = evidence.photograph;
+      const Camera start = CameraOf(tried.found[i].camera, photograph.frame);
+      const CameraFit fit = FitCamera(Anchored(photograph, start), evidence.numbers, start);
+      if (fit.camera.parameters.allFinite())
+        candidates->Add(ConditionedCameraOf(fit.camera, photograph.frame));
+    }
   }
 }
 
@@ -234,11 +323,28 @@ bool Alike(const Camera& a, const Camera& b, const Frame& frame) {
 
 }  // namespace
 
+Photograph Anchored(Photograph photograph, const Camera& start) {
+  const double width = photograph.frame.size_mm.x();
+  const bool is_usual = start[kFocal] > 0.3 * width && start[kFocal] < 10 * width;
+  const Prior usual[kIntrinsics] = {
+      is_usual ? Prior{start[kFocal], 0.2 * start[kFocal]} : Prior{1.1 * width, 0.3 * width},
+      {1, 0.1},
+      {0, 0.1 * width},
+      {0, 0.1 * width},
+      {kPi / 2, 2 * kPi / 180}};
+  for (int i = 0; i < kIntrinsics; ++i) {
+    if (!(photograph.priors[i].sigma > 0)) photograph.priors[i] = usual[i];
+  }
+  return photograph;
+}
+
 std::vector<Camera> Starts(const Photograph& photograph, const Numbers& numbers) {
   if (photograph.traces.empty()) return {};
   const Evidence evidence{photograph,
+                          numbers,
                           ConditioningOf(photograph.frame),
                           SpaceTracesOf(photograph, numbers),
+                          SpaceCurvesOf(photograph, numbers),
                           AxisLinesOf(photograph, numbers),
                           ConicRowsOf(photograph, numbers),
                           AssumedOf(photograph)};
@@ -250,7 +356,7 @@ std::vector<Camera> Starts(const Photograph& photograph, const Numbers& numbers)
     AddFocalLengths(search, &candidates);
     candidates.Sort();
   }
-  if (!evidence.traces.empty() && !candidates.Good()) {
+  if (!candidates.Good()) {
     AddAllDirections(search, &candidates);
     candidates.Sort();
   }

@@ -4,6 +4,7 @@
 #include <Eigen/LU>
 #include <Eigen/QR>
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace tranos::camera {
@@ -15,6 +16,54 @@ tl::unexpected<geom::Error> Degenerate(const char* detail) {
   return tl::unexpected(geom::Error{geom::ErrorCode::kDegenerate, detail});
 }
 
+// Four edges side by side, so that four are projected at once; the last ones may be copies without
+// weight. Lines through space are Plücker's, by moment and way.
+using Array4 = Eigen::Array4d;
+struct FourEdges {
+  std::array<Array4, 3> moment, way;
+  Array4 ax, ay, bx, by;
+  Array4 centre_weight, tilt_weight;
+};
+
+std::vector<FourEdges> InFours(const std::vector<SpaceEdge>& edges) {
+  std::vector<FourEdges> fours((edges.size() + 3) / 4);
+  for (size_t i = 0; i < 4 * fours.size(); ++i) {
+    const bool is_copy = i >= edges.size();
+    const SpaceEdge& e = edges[is_copy ? 0 : i];
+    FourEdges& four = fours[i / 4];
+    const auto k = static_cast<Eigen::Index>(i % 4);
+    const Vec3 moment = e.from_m.cross(e.to_m), way = e.to_m - e.from_m;
+    for (size_t axis = 0; axis < 3; ++axis) {
+      four.moment[axis][k] = moment[static_cast<Eigen::Index>(axis)];
+      four.way[axis][k] = way[static_cast<Eigen::Index>(axis)];
+    }
+    four.ax[k] = e.a.x(), four.ay[k] = e.a.y(), four.bx[k] = e.b.x(), four.by[k] = e.b.y();
+    four.centre_weight[k] = is_copy ? 0 : e.centre_weight;
+    four.tilt_weight[k] = is_copy ? 0 : e.tilt_weight;
+  }
+  return fours;
+}
+
+// As PenaltyOf (space_traces.h).
+double PenaltyOf(const std::vector<FourEdges>& fours, const ConditionedCamera& camera) {
+  const Mat3 to_line = camera.inverse_calibration.transpose() * camera.camera_from_world;
+  const Vec3& c = camera.position_m;
+  Array4 sum = Array4::Zero();
+  for (const FourEdges& e : fours) {
+    const auto& [mx, my, mz] = e.moment;
+    const auto& [wx, wy, wz] = e.way;
+    const Array4 x = mx - (c.y() * wz - c.z() * wy), y = my - (c.z() * wx - c.x() * wz),
+                 z = mz - (c.x() * wy - c.y() * wx);
+    const Array4 l = to_line(0, 0) * x + to_line(0, 1) * y + to_line(0, 2) * z;
+    const Array4 m = to_line(1, 0) * x + to_line(1, 1) * y + to_line(1, 2) * z;
+    const Array4 n = to_line(2, 0) * x + to_line(2, 1) * y + to_line(2, 2) * z;
+    const Array4 a = l * e.ax + m * e.ay + n, b = l * e.bx + m * e.by + n;
+    const Array4 centre = 0.5 * (a + b) * e.centre_weight, tilt = (b - a) * e.tilt_weight;
+    sum += (centre * centre + tilt * tilt) / (l * l + m * m);
+  }
+  return sum.sum();
+}
+
 // What is the same for all angles.
 struct Sweep {
   SkewFamily family;
@@ -23,6 +72,8 @@ struct Sweep {
   bool orthogonal;  // whether the constraints hold them to be so
   Eigen::Matrix<double, 3, 9> centre_from_left;  // P's fourth column from its others
   SpaceTraces traces;                            // about `origin_m`
+  std::vector<FourEdges> edges;                  // of these
+  SpaceTraces points;                            // of these
   Vec3 origin_m;
 };
 
@@ -54,7 +105,8 @@ Candidate At(const Sweep& sweep, double alpha) {
     const Mat3 left = InverseOfUpper(inverse) * r;
     const Vec3 last = sweep.centre_from_left * left.reshaped();
     const ConditionedCamera camera{inverse, r, -r.transpose() * (inverse * last)};
-    const double penalty = PenaltyOf(sweep.traces, camera);
+    double penalty = PenaltyOf(sweep.edges, camera);
+    if (!sweep.points.empty()) penalty += PenaltyOf(sweep.points, camera);
     if (penalty < best.penalty) best = {camera, penalty};
   }
   return best;
@@ -88,6 +140,8 @@ geom::Result<Sweep> Prepare(const Photograph& photograph, const Numbers& numbers
   sweep.origin_m = sweep.traces.centre_m();
   for (SpaceEdge& e : sweep.traces.edges) e.from_m -= sweep.origin_m, e.to_m -= sweep.origin_m;
   for (SpacePoint& p : sweep.traces.points) p.point_m -= sweep.origin_m;
+  sweep.edges = InFours(sweep.traces.edges);
+  sweep.points.points = sweep.traces.points;
   ProjectionMatrix projection;
   projection.leftCols<3>() = inverse->inverse() * reference->camera_from_world;
   projection.col(3) = -projection.leftCols<3>() * (reference->position_m - sweep.origin_m);

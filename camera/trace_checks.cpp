@@ -125,35 +125,60 @@ const ImageLine* LineOf(const Trace& trace) {
   return nullptr;
 }
 
-// Deviation of a line's offset at one of its ends.
-double EndSigma(const ImageLine& line) {
-  return std::hypot(line.centre_sigma_px, 0.5 * line.tilt_sigma_px);
+// Deviation of a line's offset so far along it from its centre.
+double OffsetSigma(const ImageLine& line, double along_px) {
+  return std::hypot(line.centre_sigma_px, along_px / line.length_px() * line.tilt_sigma_px);
 }
 
-bool AreOne(const ImageLine& a, const ImageLine& b) {
-  if (b.length_px() > a.length_px()) return AreOne(b, a);
+// Whether each end of the shorter line is on the longer one within so many deviations of both, and
+// they lie beside each other by more than half.
+bool LieOnEachOther(const ImageLine& a, const ImageLine& b, double deviations) {
+  if (b.length_px() > a.length_px()) return LieOnEachOther(b, a, deviations);
   const Vec2 along = (a.b_px - a.a_px) / a.length_px();
-  const double noise = std::hypot(EndSigma(a), EndSigma(b)), half = 0.5 * a.length_px();
+  const double half = 0.5 * a.length_px();
   double least = half, most = -half;
   for (const Vec2& end : {b.a_px, b.b_px}) {
     const Vec2 to = end - a.centre_px();
-    if (std::abs(Cross(along, to)) > noise) return false;
-    const double at = std::clamp(along.dot(to), -half, half);
-    least = std::min(least, at), most = std::max(most, at);
+    const double at = along.dot(to);
+    const double noise = std::hypot(OffsetSigma(a, at), OffsetSigma(b, 0.5 * b.length_px()));
+    if (std::abs(Cross(along, to)) > deviations * noise) return false;
+    least = std::min(least, std::clamp(at, -half, half));
+    most = std::max(most, std::clamp(at, -half, half));
   }
   return most - least > 0.5 * b.length_px();
 }
 
-MaybeError LineTwice(const Photograph& photograph) {
+bool AreOneInSpace(const EdgeTrace& a, const EdgeTrace& b, const Numbers& numbers) {
+  const auto point = [&](NumberIndex at) { return Vec3(numbers.values.segment<3>(at)); };
+  const Vec3 along = (point(a.to) - point(a.from)).normalized();
+  const auto is_on = [&](NumberIndex at) {
+    return along.cross(point(at) - point(a.from)).norm() < geom::kCoincident_m;
+  };
+  return is_on(b.from) && is_on(b.to);
+}
+
+// Whether two traces are of one line. Edges at different places are two, however near they are in
+// the picture. Of lines along one axis nothing says that they are not two, as a frame's, so that
+// these must be no farther apart than they are uncertain.
+bool AreOne(const Trace& a, const Trace& b, const Numbers& numbers) {
+  constexpr double kSurely = 3;
+  const ImageLine *first = LineOf(a), *second = LineOf(b);
+  if (!first || !second) return false;
+  const auto *edge = std::get_if<EdgeTrace>(&a), *other = std::get_if<EdgeTrace>(&b);
+  if (edge && other)
+    return AreOneInSpace(*edge, *other, numbers) && LieOnEachOther(*first, *second, kSurely);
+  const auto *one = std::get_if<DirectionTrace>(&a), *two = std::get_if<DirectionTrace>(&b);
+  const bool disagree = one && two && one->axis != two->axis;
+  return LieOnEachOther(*first, *second, disagree ? kSurely : 1);
+}
+
+MaybeError LineTwice(const Photograph& photograph, const Numbers& numbers) {
   const auto n = static_cast<int>(photograph.traces.size());
   for (int j = 1; j < n; ++j) {
-    const ImageLine* second = LineOf(photograph.traces[j]);
-    for (int i = 0; i < j && second; ++i) {
-      const ImageLine* first = LineOf(photograph.traces[i]);
-      if (first && AreOne(*first, *second)) {
-        return Error{ErrorCode::kDegenerate,
-                     fmt::format("the line is the same as that of trace {}", i + 1), j};
-      }
+    for (int i = 0; i < j; ++i) {
+      if (!AreOne(photograph.traces[i], photograph.traces[j], numbers)) continue;
+      return Error{ErrorCode::kDegenerate,
+                   fmt::format("the line is the same as that of trace {}", i + 1), j, i};
     }
   }
   return {};
@@ -224,21 +249,33 @@ MaybeError WrongWithOne(const Photograph& photograph, const Numbers& numbers) {
     wrong->part = i;
     return wrong;
   }
-  if (MaybeError wrong = LineTwice(photograph)) return wrong;
+  if (MaybeError wrong = LineTwice(photograph, numbers)) return wrong;
   if (MaybeError wrong = AllParallel(photograph)) return wrong;
   return SharedVanishingPoint(photograph, numbers);
 }
 
 }  // namespace
 
+std::string NameOfPhotograph(std::span<const Photograph> photographs, std::ptrdiff_t photograph) {
+  const std::string& name = photographs[photograph].name;
+  return name.empty() ? fmt::format("photograph {}", photograph + 1) : "`" + name + "`";
+}
+
+Error ErrorAmong(std::span<const Photograph> photographs, std::ptrdiff_t photograph, Error error) {
+  if (photographs.size() < 2) return error;
+  error.detail = fmt::format("{}: {}", NameOfPhotograph(photographs, photograph), error.detail);
+  for (const Photograph& before : photographs.first(photograph)) {
+    const auto traces = static_cast<int>(before.traces.size());
+    if (error.part >= 0) error.part += traces;
+    if (error.other >= 0) error.other += traces;
+  }
+  return error;
+}
+
 std::optional<Error> WrongWith(std::span<const Photograph> photographs, const Numbers& numbers) {
-  int traces_before = 0;
-  for (const Photograph& photograph : photographs) {
-    if (MaybeError wrong = WrongWithOne(photograph, numbers)) {
-      if (wrong->part >= 0) wrong->part += traces_before;
-      return wrong;
-    }
-    traces_before += static_cast<int>(photograph.traces.size());
+  for (std::ptrdiff_t p = 0; p < std::ssize(photographs); ++p) {
+    if (MaybeError wrong = WrongWithOne(photographs[p], numbers))
+      return ErrorAmong(photographs, p, *std::move(wrong));
   }
   return {};
 }

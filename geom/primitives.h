@@ -68,11 +68,12 @@ enum class ErrorCode {
 };
 
 // `detail` states the situation in words that fit after a colon; `part` is the index of the
-// input at fault, or -1.
+// input at fault, or -1; `other` that of one that it does not go together with, or -1.
 struct Error {
   ErrorCode code;
   std::string detail;
   int part = -1;
+  int other = -1;
 };
 template <class T>
 using Result = tl::expected<T, Error>;

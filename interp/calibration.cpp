@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `calibrate`: the statements before it are a function of the unknowns, which is evaluated again by
-// running them in a machine of its own, silently, with other values; and once more with the solved
-// ones, whose elements, values and messages then stand.
+// `calibrate`: the statements before it are a function of the unknowns (evaluation.h), solved for,
+// and run once more with the solved values, whose elements, values and messages then stand.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,7 +11,9 @@
 #include "camera/orthocentre.h"
 #include "camera/paper_method.h"
 #include "camera/sweep.h"
+#include "camera/trace_checks.h"
 #include "interp/camera_report.h"
+#include "interp/evaluation.h"
 #include "interp/machine.h"
 #include "interp/traced.h"
 #include "interp/value_support.h"
@@ -22,179 +23,6 @@ namespace tranos::interp {
 using model::ElementId;
 using model::ElementPtr;
 using model::Value;
-
-// What the sources of a run are given in place of their own.
-struct Machine::Trial {
-  // By the order in which they are met: the value of an unknown, the error of a `+-` literal.
-  std::map<std::size_t, double> values;
-  // In the last run: each unknown's deviations by independent sources that all solved numbers
-  // share.
-  const Eigen::MatrixXd* factor = nullptr;  // a row for each of `rows`
-  std::map<std::size_t, Eigen::Index> rows;
-};
-
-namespace {
-
-// Thrown by a trial's `calibrate`: it has all it ran for.
-struct Reached {};
-
-// A step for differences by an unknown, where a trace is read off an element.
-double StepOf(double value) { return 1e-6 * std::max(1.0, std::abs(value)); }
-
-}  // namespace
-
-// One value of the unknowns, tried.
-class Machine::TrialRun {
- public:
-  TrialRun(const Machine& main, const Host& silent, const Trial& trial)
-      : options_{main.budget_.limits, {}, {}, {}},
-        machine_(main.program_, options_, silent),
-        steps_before_(main.budget_.steps_left) {
-    machine_.budget_.steps_left = main.budget_.steps_left;  // what is left of the whole run
-    machine_.trial_ = &trial;
-    machine_.photographs_ = main.photographs_;
-    if (trial.factor) {
-      // The solved numbers' sources come first, so that all runs number the others alike.
-      machine_.sources_.assign(static_cast<std::size_t>(trial.factor->cols()), {1, ""});
-    }
-  }
-
-  // Runs to `calibrate`; an error of the script is thrown.
-  void Run() {
-    Stage stage(machine_.LinksFor(true), true);
-    machine_.stage_ = &stage;
-    machine_.places_[0] = {&stage, 0};
-    registers_.resize(machine_.program_.units[0].registers);
-    try {
-      machine_.Execute(0, registers_.data(), 0, &stage);
-    } catch (const Reached&) {
-    }
-    state_ = stage.state();
-  }
-  std::uint64_t steps() const { return steps_before_ - machine_.budget_.steps_left; }
-
-  const model::State& state() const { return state_; }
-  Machine& machine() { return machine_; }
-  Registers& registers() { return registers_; }
-
- private:
-  RunOptions options_;
-  Machine machine_;
-  std::uint64_t steps_before_;
-  Registers registers_;
-  model::State state_;
-};
-
-// Gives the numbers that traces stand on for any values of the unknowns.
-class Machine::Evaluation {
- public:
-  Evaluation(Machine& main, const Host& silent, const Traced& start, Span span)
-      : main_(main), silent_(silent), start_(start), span_(span) {
-    FindSources();
-  }
-
-  const std::vector<camera::Unknown>& unknowns() const { return unknowns_; }
-  const std::vector<std::size_t>& sources() const { return sources_; }
-  const std::optional<RunFailure>& failure() const { return failure_; }
-
-  geom::Result<camera::Numbers> operator()(const Eigen::VectorXd& unknowns) {
-    try {
-      return Evaluated(unknowns);
-    } catch (const RunFailure& failure) {
-      failure_ = failure;
-      if (failure.diagnostic.code == Code::kStepLimit) failure_->diagnostic.span = span_;
-      return tl::unexpected(geom::Error{geom::ErrorCode::kOutOfRange, failure.diagnostic.message});
-    }
-  }
-
-  Trial TrialOf(const Eigen::VectorXd& unknowns) const {
-    Trial trial;
-    for (std::size_t k = 0; k < sources_.size(); ++k) {
-      trial.values[sources_[k]] = unknowns[static_cast<Eigen::Index>(k)];
-    }
-    return trial;
-  }
-
- private:
-  // All unknowns, and each `+-` literal that a trace may depend on.
-  void FindSources() {
-    std::vector<bool> wanted(main_.solvables_.size(), !start_.shaped.empty());
-    for (const Value& number : start_.numbers) {
-      if (!number.derivatives()) continue;
-      for (const auto& [source, slope] : number.derivatives()->terms) wanted[source] = true;
-    }
-    for (std::size_t i = 0; i < main_.solvables_.size(); ++i) {
-      const Solvable& solvable = main_.solvables_[i];
-      if (solvable.unknown.name.empty() && !(wanted[i] && solvable.unknown.sigma > 0)) continue;
-      if (solvable.taken_by_unknown) continue;
-      column_[i] = static_cast<Eigen::Index>(sources_.size());
-      sources_.push_back(i);
-      unknowns_.push_back(solvable.unknown);
-    }
-  }
-
-  Traced Traces(const Eigen::VectorXd& unknowns) const {
-    const Trial trial = TrialOf(unknowns);
-    TrialRun run(main_, silent_, trial);
-    run.Run();
-    main_.budget_.ChargeSteps(run.steps(), span_);
-    return TracedIn(run.state());
-  }
-
-  geom::Result<camera::Numbers> Evaluated(const Eigen::VectorXd& unknowns) {
-    const Traced traced = Traces(unknowns);
-    if (traced.numbers.size() != start_.numbers.size()) {
-      return tl::unexpected(geom::Error{geom::ErrorCode::kOutOfRange,
-                                        "other traces are made with other values of the unknowns"});
-    }
-    camera::Numbers numbers{
-        ValuesOf(traced.numbers),
-        Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(traced.numbers.size()), unknowns.size())};
-    for (std::size_t i = 0; i < traced.numbers.size(); ++i) {
-      const model::Derivatives* derivatives = traced.numbers[i].derivatives();
-      if (!derivatives) continue;
-      for (const auto& [source, slope] : derivatives->terms) {
-        const auto column = column_.find(source);
-        if (column == column_.end()) continue;
-        numbers.by_unknown(static_cast<Eigen::Index>(i), column->second) = slope;
-      }
-    }
-    if (!start_.shaped.empty()) DifferenceShapes(unknowns, &numbers);
-    return numbers;
-  }
-
-  // Elements carry no derivatives: what is read off them is evaluated on both sides, for each
-  // unknown that was found to move it.
-  void DifferenceShapes(const Eigen::VectorXd& unknowns, camera::Numbers* numbers) {
-    if (moves_.empty()) moves_.assign(static_cast<std::size_t>(unknowns.size()), true);
-    for (Eigen::Index k = 0; k < unknowns.size(); ++k) {
-      if (!moves_[static_cast<std::size_t>(k)]) continue;
-      const double step = StepOf(unknowns[k]);
-      Eigen::VectorXd beside = unknowns;
-      beside[k] += step;
-      const Eigen::VectorXd after = ValuesOf(Traces(beside).numbers);
-      beside[k] -= 2 * step;
-      const Eigen::VectorXd before = ValuesOf(Traces(beside).numbers);
-      bool moves = false;
-      for (const auto& [first, count] : start_.shaped) {
-        numbers->by_unknown.col(k).segment(first, count) =
-            (after - before).segment(first, count) / (2 * step);
-        moves = moves || !numbers->by_unknown.col(k).segment(first, count).isZero(0);
-      }
-      moves_[static_cast<std::size_t>(k)] = moves;
-    }
-  }
-
-  Machine& main_;
-  const Host& silent_;
-  const Traced& start_;
-  const Span span_;                   // of `calibrate`
-  std::vector<std::size_t> sources_;  // of each unknown of the adjustment
-  std::map<std::size_t, Eigen::Index> column_;
-  std::vector<camera::Unknown> unknowns_;
-  std::vector<bool> moves_;
-  std::optional<RunFailure> failure_;
-};
 
 struct Machine::Solution {
   const Evaluation& evaluation;
@@ -255,25 +83,42 @@ geom::Result<camera::Estimate> EstimateBy(const Method& method,
   return estimate;
 }
 
-// Such a method knows of no deviations; what the data leave open is what they leave open.
-void TellOpen(const camera::Photograph& photograph, const camera::Numbers& numbers,
+// Such a method knows of no deviations; but what the data that it uses leave open to the likeliest
+// camera is open to all (docs/camera.md, "Determined, or not"). None of them uses priors.
+void TellOpen(const Method& method, camera::Photograph photograph, const camera::Numbers& numbers,
               camera::Estimate* estimate) {
+  for (camera::Prior& prior : photograph.priors) prior = {};
+  if (method.name == "dlt") {
+    std::erase_if(photograph.traces, [](const camera::Trace& trace) {
+      return !std::holds_alternative<camera::EdgeTrace>(trace) &&
+             !std::holds_alternative<camera::PointTrace>(trace);
+    });
+  }
+  if (method.name == "orthocentre") {  // assumed, not seen
+    for (const camera::Parameter p : {camera::kAspect, camera::kSkew}) {
+      estimate->parameters[p].determined = false;
+      estimate->parameters[p].from_prior = true;
+    }
+  }
   const auto likely = camera::Calibrate(photograph, numbers);
   if (!likely) return;
   estimate->undetermined = likely->undetermined;
   for (int i = 0; i < camera::kParameters; ++i) {
-    estimate->parameters[i].determined = likely->parameters[i].determined;
-    estimate->parameters[i].from_prior = likely->parameters[i].from_prior;
+    camera::ParameterEstimate& parameter = estimate->parameters[i];
+    if (!parameter.from_prior) parameter.determined = likely->parameters[i].determined;
   }
 }
 
 geom::Result<std::vector<camera::Estimate>> EstimatesBy(const Method& method, const Traced& traced,
                                                         const camera::Numbers& numbers) {
   std::vector<camera::Estimate> estimates;
-  for (const camera::Photograph& photograph : traced.photographs) {
-    auto estimate = EstimateBy(method, photograph, numbers);
-    if (!estimate) return tl::unexpected(estimate.error());
-    TellOpen(photograph, numbers, &*estimate);
+  for (std::size_t p = 0; p < traced.photographs.size(); ++p) {
+    auto estimate = EstimateBy(method, traced.photographs[p], numbers);
+    if (!estimate) {
+      return tl::unexpected(camera::ErrorAmong(traced.photographs, static_cast<std::ptrdiff_t>(p),
+                                               std::move(estimate.error())));
+    }
+    TellOpen(method, traced.photographs[p], numbers, &*estimate);
     estimates.push_back(*std::move(estimate));
   }
   return estimates;
@@ -282,14 +127,14 @@ geom::Result<std::vector<camera::Estimate>> EstimatesBy(const Method& method, co
 }  // namespace
 
 Fired Machine::Calibrate(const Answers& answers, const model::State& state, Span span) {
-  if (trial_) throw Reached{};
+  if (trial_) EndTrial();
   const Traced traced = TracedIn(state);
   if (traced.photographs.empty()) {
     Fail(Code::kNoPhotograph, span, "there is no photograph to calibrate", "",
          "attach photo \"fire_1917.png\" format=40.5mm,26.7mm as fire");
   }
   const Host silent{host_.read, nullptr};
-  Evaluation evaluation(*this, silent, traced, span);
+  Evaluation evaluation(*this, silent, state, traced, span);
   const Method method{answers.Text("method", "likelihood"), RangeOf(answers, span)};
   Eigen::VectorXd start(static_cast<Eigen::Index>(evaluation.unknowns().size()));
   for (Eigen::Index k = 0; k < start.size(); ++k) {
@@ -352,58 +197,57 @@ void Machine::LeaveUnknowns(const std::string& method, Span span) {
   }
 }
 
-// The error with the trace at fault.
+// Which trace has this index, counted through the photographs.
+std::optional<Span> Machine::FindTrace(const Traced& traced, int index) const {
+  for (std::size_t p = 0; p < traced.trace_ids.size() && index >= 0; ++p) {
+    const auto& ids = traced.trace_ids[p];
+    const int count = static_cast<int>(ids.size());
+    if (index < count) {
+      return stage_->trace_spans().at(ids[static_cast<std::size_t>(index)]);
+    }
+    index -= count;
+  }
+  return std::nullopt;
+}
+
+// The error with the traces at fault.
 void Machine::FailCalibration(const geom::Error& error, const Traced& traced, Span span) const {
   Code code = Code::kNotCalibrated;
   if (error.code == geom::ErrorCode::kOutOfRange) code = Code::kTracesDisagree;
-  std::vector<Note> notes;
-  int part = error.part;
-  for (const auto& ids : traced.trace_ids) {
-    if (part >= 0 && part < static_cast<int>(ids.size())) {
-      const auto place = stage_->trace_spans().find(ids[static_cast<std::size_t>(part)]);
-      if (place != stage_->trace_spans().end()) {
-        throw RunFailure{{code == Code::kNotCalibrated ? Code::kBadTrace : code,
-                          place->second,
-                          error.detail,
-                          "this trace",
-                          "",
-                          {{span, "calibrated here"}}}};
-      }
-    }
-    part -= static_cast<int>(ids.size());
+  const auto trace = FindTrace(traced, error.part);
+  if (!trace) {
+    Fail(code, span, error.detail, "",
+         "`tranos explain " + std::string(InfoOf(code).code) + "` says more");
   }
-  Fail(code, span, error.detail, "",
-       "`tranos explain " + std::string(InfoOf(code).code) + "` says more");
+  if (code == Code::kNotCalibrated) code = Code::kBadTrace;
+  std::vector<Note> notes;
+  if (const auto other = FindTrace(traced, error.other)) {
+    notes.push_back({*other, "the other trace"});
+  }
+  notes.push_back({span, "calibrated here"});
+  Fail(code, *trace, error.detail, "this trace", "", std::move(notes));
 }
 
 // The state as the solution makes it: what depends on unknowns, and the photographs' cameras.
 Fired Machine::Calibrated(Solution solution, const model::State& before, Span span) {
   auto& [evaluation, traced, silent, solved, found] = solution;
-  // The first photograph's covariance is of its camera and the unknowns together; those of the
-  // others are their own.
-  Eigen::MatrixXd factor(0, 0);
-  std::vector<Eigen::Index> first_source;
-  Eigen::Index columns = 0;
-  for (const camera::Estimate& estimate : found) {
-    first_source.push_back(columns);
-    columns += FactorOf(estimate.covariance).cols();
-  }
   Trial trial = evaluation.TrialOf(solved);
   std::erase_if(trial.values, [&](const auto& value) {
     return solvables_[value.first].unknown.name.empty();  // literals stay as they are stated
   });
-  const Eigen::MatrixXd first = FactorOf(found[0].covariance);
-  factor.setZero(static_cast<Eigen::Index>(evaluation.sources().size()), columns);
+  // All cameras and unknowns of the adjustment vary with the same sources.
+  const Eigen::MatrixXd& deviations = found[0].deviations;
+  const Eigen::MatrixXd factor =
+      deviations.bottomRows(std::max<Eigen::Index>(deviations.rows() - camera::kParameters, 0));
   for (std::size_t k = 0; k < evaluation.sources().size(); ++k) {
     const auto row = static_cast<Eigen::Index>(k);
-    if (camera::kParameters + row >= first.rows()) continue;
-    factor.row(row).head(first.cols()) = first.row(camera::kParameters + row);
-    trial.rows[evaluation.sources()[k]] = row;
+    if (row < factor.rows()) trial.rows[evaluation.sources()[k]] = row;
   }
   trial.factor = &factor;
   TrialRun run(*this, silent, trial);
   run.Run();
   CheckTrail(run.machine().trail_);
+  CheckNumbers(evaluation, trial, run.state(), traced);
   Fired fired;
   fired.edit = Adopt(run, before, span);
   for (std::size_t p = 0; p < found.size(); ++p) {
@@ -412,7 +256,6 @@ Fired Machine::Calibrated(Solution solution, const model::State& before, Span sp
     for (const std::size_t source : evaluation.sources()) {
       photograph.unknown_dimensions.push_back(solvables_[source].dimension);
     }
-    photograph.first_source = static_cast<model::SourceId>(first_source[p]);
     Warn(found[p], *element, traced.trace_ids[p], span);
     photograph.estimate = std::make_shared<const camera::Estimate>(std::move(found[p]));
     std::erase_if(fired.edit.replaced,
@@ -442,9 +285,8 @@ void Machine::Warn(const camera::Estimate& estimate, const model::Element& photo
   for (const camera::TraceResidual& residual : estimate.residuals) {
     if (residual.weight >= 0.5) continue;
     const ElementId id = trace_ids[static_cast<std::size_t>(residual.trace)];
-    const auto place = stage_->trace_spans().find(id);
     outcome_.diagnostics.Add(
-        {Code::kTraceDoubted, place == stage_->trace_spans().end() ? span : place->second,
+        {Code::kTraceDoubted, stage_->trace_spans().at(id),
          fmt::format("{}this trace is given {:.0f} % of its weight", name, 100 * residual.weight),
          "doubted", ""});
   }
@@ -463,6 +305,18 @@ void Machine::CheckTrail(const Trail& solved) const {
     const Trail& longer = trail_.size() > solved.size() ? trail_ : solved;
     Fail(Code::kChoiceChanged, longer[common].span,
          "with the solved values of the unknowns the script decides something else here");
+  }
+}
+
+// A number that a function such as `round` made may have jumped.
+void Machine::CheckNumbers(const Evaluation& evaluation, const Trial& trial,
+                           const model::State& solved, const Traced& traced) const {
+  for (const std::size_t number : evaluation.Beyond(TracedIn(solved), trial)) {
+    if (evaluation.is_read_off(number)) continue;
+    Fail(Code::kChoiceChanged, stage_->trace_spans().at(traced.number_owners[number]),
+         "with the solved values of the unknowns this trace stands on another number", "",
+         "do not round what depends on an unknown, or give the unknowns starts nearer to their "
+         "solution");
   }
 }
 
@@ -513,6 +367,7 @@ bool Machine::DependsOnUnknown(const Value& value) const {
                        [&](const Value& item) { return DependsOnUnknown(item); });
   }
   if (value.from_unknown()) return true;
+  if (value.is_string()) return slice_ && slice_->HoldsText(value);
   if (value.kind() != Value::Kind::kUncertain) return false;
   const auto& terms = value.derivatives()->terms;
   return std::any_of(terms.begin(), terms.end(), [&](const auto& term) {
@@ -554,12 +409,15 @@ Value Machine::UnknownValue(const UnknownInfo& info, const Value& start, const V
     if (info.is_free) {
       Fail(Code::kUnknownDecides, span,
            "`" + info.name + "` has no start, and nothing solves for it", "",
-           "`calibrate` would; or give it a start: `unknown " + info.name + " = 4m`");
+           program_.calibrates
+               ? "write it before `calibrate`, which solves for what stands before it"
+               : "`calibrate` would; or give it a start: `unknown " + info.name + " = 4m`");
     }
     outcome_.diagnostics.Add(
         {Code::kUnknownUnsolved, span,
          "`" + info.name + "` keeps its start, " + Format(start, program_.measures[0], -1), "",
-         "`calibrate` would solve for it"});
+         program_.calibrates ? "write it before `calibrate`, which solves for what stands before it"
+                             : "`calibrate` would solve for it"});
     return start;
   }
   Solvable solvable{{info.name, start.number(), Sigma(start, sources_)}, start.dimension()};

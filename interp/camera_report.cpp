@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 
 #include "camera/parameter_table.h"
@@ -46,14 +45,11 @@ Value MemberValue(const Photograph& photograph, const Row& row) {
                     estimate.undetermined.empty() ? "" : estimate.undetermined.front()};
   }
   const double value = estimate.camera[row.parameter] * row.in_si;
-  const Eigen::MatrixXd factor = FactorOf(estimate.covariance);
+  const Eigen::MatrixXd& deviations = estimate.deviations;
   model::Derivatives derivatives;
-  for (Eigen::Index j = 0; j < factor.cols(); ++j) {
-    const double slope = factor(row.parameter, j) * row.in_si;
-    if (slope != 0) {
-      derivatives.terms.emplace_back(photograph.first_source + static_cast<model::SourceId>(j),
-                                     slope);
-    }
+  for (Eigen::Index j = 0; j < deviations.cols(); ++j) {
+    const double slope = deviations(row.parameter, j) * row.in_si;
+    if (slope != 0) derivatives.terms.emplace_back(static_cast<model::SourceId>(j), slope);
   }
   if (derivatives.terms.empty()) return Value::Number(value, row.dimension);
   return Value::Uncertain({value, std::move(derivatives)}, row.dimension);
@@ -91,6 +87,23 @@ std::string ParameterLine(const camera::Estimate& estimate, Parameter parameter,
   return line;
 }
 
+// What was assumed, and what came of it.
+void AddPriors(const Photograph& photograph, std::vector<std::string>* lines) {
+  for (int p = 0; p < camera::kIntrinsics; ++p) {
+    const camera::Prior& prior = photograph.priors[p];
+    if (!(prior.sigma > 0)) continue;
+    const camera::ParameterRow& row = camera::kParameterRows[p];
+    const camera::ParameterEstimate& known = photograph.estimate->parameters[p];
+    std::string line = fmt::format("prior {} {:g} ± {:g}{}{}", row.symbol,
+                                   prior.value / row.per_unit, prior.sigma / row.per_unit,
+                                   row.unit.empty() || row.unit == "°" ? "" : " ", row.unit);
+    if (photograph.estimate->covariance.size() > 0) {
+      line += fmt::format(", priors are {:.0f} % of the result", 100 * known.shares.priors);
+    }
+    lines->push_back(std::move(line));
+  }
+}
+
 // From the camera to dots, a line each row.
 void AddCalibrationMatrix(const camera::Camera& camera, const camera::Frame& frame,
                           std::vector<std::string>* lines) {
@@ -121,17 +134,6 @@ std::string ResidualLine(const camera::Estimate& estimate) {
 }
 
 }  // namespace
-
-Eigen::MatrixXd FactorOf(const Eigen::MatrixXd& covariance) {
-  if (covariance.size() == 0) return Eigen::MatrixXd(camera::kParameters, 0);
-  // Scaled first: millimetres and radians stand beside one another.
-  const Eigen::VectorXd sigma = covariance.diagonal().cwiseMax(0).cwiseSqrt();
-  const Eigen::VectorXd inverse = sigma.unaryExpr([](double s) { return s > 0 ? 1 / s : 0.0; });
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(inverse.asDiagonal() * covariance *
-                                                              inverse.asDiagonal());
-  return sigma.asDiagonal() * solver.eigenvectors() *
-         solver.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal();
-}
 
 std::optional<Value> PhotographMember(const Photograph& photograph, std::string_view name) {
   if (name == "width") return Value::Number(photograph.frame.size_px.x(), model::kPixel);
@@ -169,6 +171,7 @@ std::vector<std::string> CameraReport(const model::Element& element, const Photo
   for (int p = 0; p < camera::kParameters; ++p) {
     lines.push_back(ParameterLine(estimate, static_cast<Parameter>(p), stated));
   }
+  AddPriors(photograph, &lines);
   if (estimate.determined()) {
     AddCalibrationMatrix(estimate.camera, photograph.frame, &lines);
   }

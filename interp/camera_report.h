@@ -23,8 +23,4 @@ std::optional<model::Value> PhotographMember(const model::Photograph& photograph
                                              std::string_view name);
 std::vector<std::string> PhotographMembers();
 
-// A square root F of the covariance, F Fᵀ = C, so that the adjusted quantities are linear in as
-// many independent sources with a deviation of 1.
-Eigen::MatrixXd FactorOf(const Eigen::MatrixXd& covariance);
-
 }  // namespace tranos::interp

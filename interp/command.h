@@ -135,6 +135,7 @@ struct Command {
   CommandResult (*execute_with)(const model::State&, const Answers&, const Surroundings&) = nullptr;
   bool dots = false;        // its data points are dots of the photograph
   bool calibrates = false;  // solves for the unknowns before it; stands once, at the top
+  bool informs = false;     // says what `calibrate` goes by: after it, it is warned of
 
   // Whether this version carries it out; else it gives E0001.
   bool exists() const {

@@ -22,8 +22,8 @@ std::vector<Command> Collect() {
         CreateCommands(),         TransformCommands(),    ArrayCommands(),      EditCommands(),
         OffsetCommands(),         CutCommands(),          CornerCommands(),     ConstructCommands(),
         ConstructSolidCommands(), SolidBooleanCommands(), PlaneCommands(),      ViewCommands(),
-        OutputCommands(),         PhotographCommands(),   TraceCommands(),      CalibrateCommands(),
-        HistoryCommands(),        LaterCommands()}) {
+        OutputCommands(),         PhotographCommands(),   PriorCommands(),      TraceCommands(),
+        CalibrateCommands(),      HistoryCommands(),      LaterCommands()}) {
     all.insert(all.end(), family.begin(), family.end());
   }
   std::stable_sort(all.begin(), all.end(), [](const Command& a, const Command& b) {

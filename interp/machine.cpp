@@ -45,6 +45,7 @@ Machine::Machine(const Program& program, const RunOptions& options, const Host& 
       budget_(options.limits) {
   if (options.on_progress) budget_.on_progress = &options.on_progress;
   unsolved_ = program.calibrates;
+  if (unsolved_) slice_.emplace();
   *photographs_ = options.photographs;
   innermost_.resize(program.units.size());
   places_.resize(program.scopes.size());
@@ -68,6 +69,7 @@ StageLinks Machine::LinksFor(bool is_script) {
           photographs_.get(),
           &solids_,
           unsolved_ ? &trail_ : nullptr,
+          is_script && slice_ ? &*slice_ : nullptr,
           stages_made_++,
           &turns_,
           &turn_values_};
@@ -117,6 +119,7 @@ void Machine::Print(std::string_view line) {
 
 void Machine::PrintHeld() {
   unsolved_ = false;
+  slice_.reset();
   for (const std::string& line : std::exchange(held_, {})) Print(line);
 }
 
@@ -385,6 +388,9 @@ void Machine::Effect(const Instruction& i, const CodeUnit& unit, Value* r, Stage
       PointEffect(i, unit, r, stage, span);
       break;
     case Op::kSetting:
+      if (Get(i.b, r, k).is_string()) {
+        RefuseUnknown(Get(i.b, r, k), span, "`" + std::string(AllSettings()[i.flags].key) + "=`");
+      }
       stage->Set(AllSettings()[i.flags], Get(i.b, r, k), span);
       break;
     case Op::kReset:

@@ -11,6 +11,7 @@
 #include "camera/estimate.h"
 #include "interp/functions.h"
 #include "interp/run.h"
+#include "interp/slice.h"
 #include "interp/solid_ledger.h"
 #include "interp/stage.h"
 #include "interp/traced.h"
@@ -52,9 +53,12 @@ class Machine {
                         std::span<const model::Value> captured, Span span);
   model::Value CallClosure(const model::Value& closure, std::span<const model::Value> arguments,
                            Span span);
-  // The slower instructions, each in a function of its own.
+  // The slower instructions, each in a function of its own. Before `calibrate` Compute also notes
+  // what is computed from unknowns.
   void Compute(const Instruction& instruction, const CodeUnit& unit, model::Value* registers,
                Span span);
+  void ComputeValue(const Instruction& instruction, const CodeUnit& unit, model::Value* registers,
+                    Span span);
   bool BeginCount(const Instruction& i, model::Value* registers, Span span);
   bool NextCount(const Instruction& i, model::Value* registers, Span span);
   bool BeginEach(const Instruction& i, model::Value* registers, Span span);
@@ -82,6 +86,7 @@ class Machine {
   // Photographs and unknowns (calibration.cpp).
   struct Trial;
   class TrialRun;
+  struct ReadOff;
   class Evaluation;
   struct Solution;
   // Something that the adjustment may solve for: an unknown, or the error of a `+-` literal.
@@ -91,8 +96,10 @@ class Machine {
     bool taken_by_unknown = false;  // a literal that says what is known of an unknown
   };
   Fired Calibrate(const Answers& answers, const model::State& state, Span span);
+  std::optional<Span> FindTrace(const Traced& traced, int index) const;
   [[noreturn]] void FailCalibration(const geom::Error& error, const Traced& traced,
                                     Span span) const;
+  [[noreturn]] static void EndTrial();
   Fired Calibrated(Solution solution, const model::State& before, Span span);
   void Warn(const camera::Estimate& estimate, const model::Element& photograph,
             const std::vector<model::ElementId>& trace_ids, Span span);
@@ -100,10 +107,14 @@ class Machine {
   void CheckUnknowns(const camera::Estimate& estimate) const;
   void LeaveUnknowns(const std::string& method, Span span);
   void CheckTrail(const Trail& solved) const;
+  void CheckNumbers(const Evaluation& evaluation, const Trial& trial, const model::State& solved,
+                    const Traced& traced) const;
   model::Value UnknownValue(const UnknownInfo& info, const model::Value& start,
                             const model::Value* registers, Span span);
   model::Value WithError(model::Value number);
   bool DependsOnUnknown(const model::Value& value) const;
+  bool TakesUnknownText(const Instruction& i, const CodeUnit& unit,
+                        const model::Value* registers) const;
   void RefuseUnknown(const model::Value& value, Span span, std::string_view as) const;
   void Decide(const model::Value& condition, Span span);
   void Print(std::string_view line);
@@ -132,7 +143,8 @@ class Machine {
   bool unsolved_ = false;         // `calibrate` stands in the script and is still to come
   const Trial* trial_ = nullptr;  // the values of the unknowns that this run tries, or none
   Trail trail_;
-  std::vector<Solvable> solvables_;  // what can be solved for, as it was met
+  std::vector<Solvable> solvables_;  // what can be solved for, as it was met: a source each
+  std::optional<Slice> slice_;       // what was computed from these; until `calibrate`, of the run
   std::uint64_t stages_made_ = 0;
   std::shared_ptr<PhotographFiles> photographs_ = std::make_shared<PhotographFiles>();
   SolidLedger solids_;

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The slower instructions that compute a value and change nothing else.
+#include <algorithm>
+
 #include "interp/machine.h"
 #include "interp/value_support.h"
 
@@ -98,8 +100,29 @@ Value Machine::Detached(const Value& value, Span span, int depth) {
   return Value::List(std::move(items));
 }
 
-// Instructions that compute a value and change nothing else.
 void Machine::Compute(const Instruction& i, const CodeUnit& unit, Value* r, Span span) {
+  if (!slice_) return ComputeValue(i, unit, r, span);
+  auto read = Slice::ReadBy(i, r);
+  const bool is_text = TakesUnknownText(i, unit, r);
+  const std::size_t sources_before = solvables_.size();
+  ComputeValue(i, unit, r, span);
+  if (is_text) slice_->NoteText(r[i.a]);
+  if (!read) return;
+  const auto at = static_cast<std::uint32_t>(&i - unit.code.data());
+  const bool is_source = solvables_.size() > sources_before;
+  slice_->Note({&unit, at, *std::move(read), r[i.a], is_source ? sources_before : Slice::kNone});
+}
+
+// Whether it makes text of what depends on an unknown.
+bool Machine::TakesUnknownText(const Instruction& i, const CodeUnit& unit, const Value* r) const {
+  if (i.op == Op::kFormat) return DependsOnUnknown(Get(i.b, r, unit.constants.data()));
+  return i.op == Op::kMakeString && std::any_of(r + i.b, r + i.b + i.c, [&](const Value& piece) {
+           return DependsOnUnknown(piece);
+         });
+}
+
+// Instructions that compute a value and change nothing else.
+void Machine::ComputeValue(const Instruction& i, const CodeUnit& unit, Value* r, Span span) {
   const Value* const k = unit.constants.data();
   const auto b = [&]() -> const Value& { return Get(i.b, r, k); };
   const auto c = [&]() -> const Value& { return Get(i.c, r, k); };
@@ -121,7 +144,9 @@ void Machine::Compute(const Instruction& i, const CodeUnit& unit, Value* r, Span
       break;
     case Op::kPlusMinus:
       budget_.ChargeSteps(DeviationSteps(b()), span);
-      r[i.a] = WithError(PlusMinus(b(), c(), i.flags & 1, {&measure, &sources_}));
+      r[i.a] = ForEachCoordinate(b(), [&](const Value& number) {
+        return WithError(PlusMinus(number, c(), i.flags & 1, {&measure, &sources_}));
+      });
       break;
     case Op::kMakeList: {
       budget_.ChargeSteps(i.c, span);

@@ -73,10 +73,12 @@ void Stage::Start(const Command* row, const Definition* definition, Span span) {
   active_.own_statement = true;
   active_.points.assign(row->prompts.size(), Vec3::Zero());
   active_.point_spans.assign(row->prompts.size(), span);
+  active_.point_notes.assign(row->prompts.size(), Slice::kNone);
   active_.answered.assign(row->prompts.size(), false);
   if (row->manner == Manner::kGathers) {
     active_.points.clear();
     active_.point_spans.clear();
+    active_.point_notes.clear();
   }
   active_.begun = 0;
   active_.keys.clear();
@@ -207,35 +209,45 @@ std::string PointText(PointKey kind, const Value& values) {
 
 }  // namespace
 
-void Stage::Point(PointKey kind, const Value& values, Span span) {
-  const model::Drawing& drawing = state_.drawing;
+Vec3 PlaceOf(PointKey kind, const Value& values, const model::Drawing& drawing, const Vec3& last) {
   const geom::Frame& plane = drawing.settings->plane;
   std::size_t given = 0;
   const Vec3 v = Coordinates(values, &given);
   const double z = given > 2 ? v.z() : drawing.settings->depth_m;
-  const Vec3& last = drawing.last_point;
-  if (links_.options) key_in_ = PointText(kind, values);
   switch (kind) {
     case PointKey::kXy:
-      return TakePoint({v.x(), v.y(), z}, span);
+      return {v.x(), v.y(), z};
     case PointKey::kAx:
-      return TakePoint(plane.ToWorld({v.x(), v.y(), z}), span);
+      return plane.ToWorld({v.x(), v.y(), z});
     case PointKey::kDl:
-      return TakePoint(last + plane.ToWorld(v) - plane.origin, span);
+      return last + plane.ToWorld(v) - plane.origin;
     case PointKey::kDi: {
       const Vec3 local = Rotation(Vec3::Zero(), Vec3::UnitZ(), v.y()) * Vec3(v.x(), 0, 0);
-      return TakePoint(last + plane.ToWorld(local) - plane.origin, span);
+      return last + plane.ToWorld(local) - plane.origin;
     }
     case PointKey::kDx: {
       const std::string& direction = drawing.view->direction;
       const geom::Frame view = model::FrameOf(direction.empty() ? "top" : direction);
-      return TakePoint(last + view.ToWorld(v) - view.origin, span);
+      return last + view.ToWorld(v) - view.origin;
     }
     case PointKey::kDot:
-      return TakePoint({v.x(), v.y(), 0}, span, true);
+      return {v.x(), v.y(), 0};
     case PointKey::kOn:
-      break;  // comes through On
+      break;  // comes through Stage::On
   }
+  return last;
+}
+
+void Stage::Point(PointKey kind, const Value& values, Span span) {
+  if (links_.options) key_in_ = PointText(kind, values);
+  const model::Drawing& drawing = state_.drawing;
+  const bool follows = kind == PointKey::kDl || kind == PointKey::kDi || kind == PointKey::kDx;
+  if (links_.slice) {
+    point_note_ =
+        links_.slice->NotePoint(kind, values, drawing, follows ? last_note_ : Slice::kNone);
+  }
+  TakePoint(PlaceOf(kind, values, drawing, drawing.last_point), span, kind == PointKey::kDot);
+  point_note_ = Slice::kNone;
 }
 
 void Stage::On(const model::Interface& interface, Span span) {
@@ -267,7 +279,10 @@ void Stage::TakePoint(const Vec3& point, Span span, bool is_dot) {
          is_dot ? "" : "expected dot=u,v");
   }
   links_.budget->ChargeSteps(1, span);
-  if (!is_dot) state_.drawing.last_point = point;
+  if (!is_dot) {
+    state_.drawing.last_point = point;
+    last_note_ = point_note_;
+  }
   switch (active_.row->manner) {
     case Manner::kImmediate:
       Fail(Code::kNoCommand, span,
@@ -284,6 +299,7 @@ void Stage::TakePoint(const Vec3& point, Span span, bool is_dot) {
       }
       active_.points.push_back(point);
       active_.point_spans.push_back(span);
+      active_.point_notes.push_back(point_note_);
       ++active_.begun;
       break;
     case Manner::kChooses:
@@ -305,6 +321,7 @@ void Stage::AnswerPrompt(const Vec3& point, Span span) {
     if (active_.answered[i] || KeyAnswers(static_cast<int>(i))) continue;
     active_.points[i] = point;
     active_.point_spans[i] = span;
+    active_.point_notes[i] = point_note_;
     active_.answered[i] = true;
     ++active_.begun;
     break;

@@ -15,6 +15,7 @@
 #include "interp/arithmetic.h"
 #include "interp/failure.h"
 #include "interp/run.h"
+#include "interp/slice.h"
 #include "interp/solid_ledger.h"
 #include "model/edit.h"
 
@@ -70,10 +71,15 @@ struct StageLinks {
   PhotographFiles* photographs;
   SolidLedger* solids;
   Trail* trail;          // null where nothing is solved for
+  Slice* slice;          // takes down what came from unknowns; null where nothing is solved for
   std::uint64_t serial;  // tells the stages of a run apart
   const std::vector<std::uint32_t>* turns;
   const std::vector<const model::Value*>* turn_values;  // the loops' variables
 };
+
+// Where a data point lies: by its values, the settings and the view in force, and the point before.
+geom::Vec3 PlaceOf(PointKey kind, const model::Value& values, const model::Drawing& drawing,
+                   const geom::Vec3& last);
 
 class Stage {
  public:
@@ -133,8 +139,9 @@ class Stage {
     bool own_statement = true;  // still in the statement that began it
     std::vector<geom::Vec3> points;
     std::vector<Span> point_spans;
-    std::vector<bool> answered;  // prompts that a data point answered
-    int begun = 0;               // data points since the last firing
+    std::vector<std::size_t> point_notes;  // in the slice
+    std::vector<bool> answered;            // prompts that a data point answered
+    int begun = 0;                         // data points since the last firing
     std::vector<KeyAnswer> keys;
     std::vector<std::string> words;
     std::vector<Span> word_spans;
@@ -177,6 +184,8 @@ class Stage {
   void AddChosen(const model::ElementPtr& element, Span span, ChosenOnce* out) const;
   void Fire(Span span);
   void GuardChanges(model::Edit* edit) const;
+  void NotePlaced(const Answers& answers, const model::Edit& edit) const;
+  void WarnTooLate(const model::Edit& edit) const;
   void FirePlacement(Span span);
   void FireHistory(Span span);
   Fired Execute(const Command& row, const Answers& answers, Span span) const;
@@ -210,6 +219,9 @@ class Stage {
   std::vector<model::State> history_;  // the state before each firing that changed the model
   std::vector<model::State> undone_;
   std::size_t history_base_ = 0;
+  bool calibrated_ = false;
+  std::size_t point_note_ = Slice::kNone;  // of the data point that is keyed in
+  std::size_t last_note_ = Slice::kNone;   // of the last point
   std::size_t ids_given_ = 0;  // an id is given once in a run, that of an undone element too
   std::vector<std::pair<std::string, std::size_t>> marks_;
   std::unordered_map<model::ElementId, Span> trace_spans_;

@@ -176,6 +176,30 @@ void Stage::GuardChanges(model::Edit* edit) const {
   std::erase_if(edit->consumed, [&](ElementId id) { return id >= entries.size(); });
 }
 
+// Takes down the placing of one element by what was answered alone.
+void Stage::NotePlaced(const Answers& answers, const model::Edit& edit) const {
+  const Command& row = *active_.row;
+  const bool places = row.manner == Manner::kPlaces || row.manner == Manner::kGathers;
+  if (!places || !row.execute || row.dots || edit.added.size() != 1) return;
+  links_.slice->NoteFiring({&row, answers, state_, active_.point_notes,
+                            static_cast<model::ElementId>(state_.model.entries.size())});
+}
+
+// What `calibrate` would have gone by, and stands after it; traces of stated cameras are for
+// their penalty.
+void Stage::WarnTooLate(const model::Edit& edit) const {
+  for (const ElementPtr& element : edit.added) {
+    const auto* trace = std::get_if<model::TracePtr>(&element->geometry);
+    const ElementPtr of = trace ? state_.model.Current((*trace)->photograph) : nullptr;
+    const auto* photograph = of ? std::get_if<model::PhotographPtr>(&of->geometry) : nullptr;
+    if (photograph && (*photograph)->file.empty()) return;
+  }
+  links_.diagnostics->Add(
+      {Code::kTakesNoPart, active_.span,
+       "`" + std::string(active_.row->words) + "` stands after `calibrate` and takes no part in it",
+       "", "write it before `calibrate`"});
+}
+
 void Stage::Fire(Span span) {
   const Command& row = *active_.row;
   CheckRequired(span);
@@ -190,6 +214,7 @@ void Stage::Fire(Span span) {
   GuardChanges(&fired.edit);
   links_.solids->Note(fired.edit.added, active_.span);
   links_.solids->Note(fired.edit.replaced, active_.span);
+  if (calibrated_ && row.informs) WarnTooLate(fired.edit);
   for (const CommandError& warning : fired.warnings)
     links_.diagnostics->Add(MakeDiagnostic(warning));
   for (const std::string& line : fired.messages) {
@@ -212,11 +237,13 @@ void Stage::Fire(Span span) {
   links_.budget->ChargeElements(fired.edit.added.size(), span);
   TakeIds();
   if (fired.edit.ChangesModel()) history_.push_back(state_);
+  if (links_.slice) NotePlaced(answers, fired.edit);
   if (row.dots) trace_spans_[static_cast<ElementId>(state_.model.entries.size())] = active_.span;
   Commit(fired.edit, span);
   if (row.calibrates) {  // what it stands on cannot be undone
     history_base_ = history_.size();
     undone_.clear();
+    calibrated_ = true;
   }
   AskAgain();
 }
@@ -320,11 +347,13 @@ void Stage::AskAgain() {
   if (row.manner == Manner::kGathers) {
     active_.points.clear();
     active_.point_spans.clear();
+    active_.point_notes.clear();
     return;
   }
   if (row.carries && !active_.points.empty()) {
     active_.points[0] = active_.points.back();
     active_.point_spans[0] = active_.point_spans.back();
+    active_.point_notes[0] = active_.point_notes.back();
   }
   for (std::size_t i = static_cast<std::size_t>(row.again); i < active_.answered.size(); ++i)
     active_.answered[i] = false;
@@ -381,8 +410,8 @@ void Stage::TooFew(Span span) const {
   }
   std::string asked;
   if (row.manner == Manner::kGathers) {
-    asked = "at least " + std::to_string(row.least) + " points, and has " +
-            std::to_string(active_.points.size());
+    asked = "at least " + std::to_string(row.least) + (row.dots ? " dots" : " points") +
+            ", and has " + std::to_string(active_.points.size());
   } else {
     for (std::size_t i = 0; i < row.prompts.size() && asked.empty(); ++i) {
       if (!active_.answered[i] && !KeyAnswers(static_cast<int>(i)))
@@ -391,7 +420,9 @@ void Stage::TooFew(Span span) const {
   }
   if (asked.empty()) asked = "a data point";
   Fail(Code::kTooFewPoints, active_.span, "`" + std::string(row.words) + "` asks for " + asked, "",
-       "give it a data point such as xy=0,0,0, or drop the question with `reset`",
+       std::string("give it ") +
+           (row.dots ? "a dot such as dot=102.5,211" : "a data point such as xy=0,0,0") +
+           ", or drop the question with `reset`",
        {{span, "it ends here"}});
 }
 

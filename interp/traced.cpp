@@ -61,6 +61,7 @@ class Gathering {
     const auto place = place_.find(trace.photograph);
     if (place == place_.end()) return;
     const auto made = Made(trace);
+    out_.number_owners.resize(out_.numbers.size(), id);
     if (!made) return;
     if (is_first_) out_.noise_px = trace.noise_px;
     is_first_ = false;
@@ -103,6 +104,7 @@ class Gathering {
   std::optional<camera::Trace> OfElement(const Trace& trace) {
     ElementPtr current = state_.model.Current(trace.of->id);
     if (!current) current = trace.of;
+    out_.elements.insert(current->id);
     const auto* curve = std::get_if<model::CurvePtr>(&current->geometry);
     if (!curve) return std::nullopt;
     const int first = static_cast<int>(out_.numbers.size());
@@ -112,7 +114,6 @@ class Gathering {
       const geom::Vec3 p = geom::PointAt(**curve, static_cast<double>(i) / (points - 1));
       for (const double x : p) out_.numbers.push_back(Value::Number(x, model::kLength));
     }
-    out_.shaped.emplace_back(first, 3 * points);
     if (!line) return camera::CurveTrace{trace.dots_px, Noise(trace), first, points};
     if (const auto image = Line(trace)) return camera::EdgeTrace{*image, first, first + 3};
     return std::nullopt;

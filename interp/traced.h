@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <span>
+#include <unordered_set>
 #include <vector>
 
 #include "camera/traces.h"
@@ -16,8 +17,9 @@ struct Traced {
   std::vector<model::ElementId> photograph_ids;          // of each
   std::vector<std::vector<model::ElementId>> trace_ids;  // of each, by trace
   std::vector<model::Value> numbers;                     // by camera::NumberIndex, in SI
-  std::vector<std::pair<int, int>> shaped;  // first number and count of those read off an element
-  double noise_px = 0.5;                    // of the first trace
+  std::vector<model::ElementId> number_owners;           // the trace that each stands for
+  std::unordered_set<model::ElementId> elements;         // those that traces are of
+  double noise_px = 0.5;                                 // of the first trace
   bool noise_is_estimated = false;
 };
 // Of the photograph with this id, or of all attached ones.

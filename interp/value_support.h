@@ -79,6 +79,14 @@ std::vector<model::Value> ItemsArgument(const CallContext& context, Arguments ar
 std::vector<model::Value> Progression(const CallContext& context, double from, double step,
                                       double count, model::Dimension dimension);
 bool IsVector(const model::Value& value);  // a list of two or three numbers
+// f of a number; of a point, the point with f of each of its coordinates.
+template <class F>
+model::Value ForEachCoordinate(const model::Value& value, F&& f) {
+  if (!IsVector(value)) return f(value);
+  std::vector<model::Value> items;
+  for (const model::Value& item : value.list()) items.push_back(f(item));
+  return model::Value::List(std::move(items));
+}
 // √Σx² with its derivatives.
 model::Value Norm(std::span<const model::Value> numbers);
 // The angle of the direction (x, y) in radians; multiples of 45° as `45deg` gives them.

@@ -25,9 +25,6 @@ struct Photograph {
   camera::Prior priors[camera::kIntrinsics] = {};
   // What `calibrate` found, or the camera as it was stated; null until then.
   std::shared_ptr<const camera::Estimate> estimate = nullptr;
-  // The first of the sources that its numbers' deviations came from: independent ones with a
-  // deviation of 1, as many as the covariance has columns. Of a run, as an id is.
-  SourceId first_source = 0;
   std::vector<Dimension> unknown_dimensions = {};  // of each of the estimate's unknowns
 };
 

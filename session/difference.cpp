@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "session/difference.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
-#include "camera/parameter_table.h"
 #include "interp/functions.h"
 #include "session/correspondence.h"
 #include "session/element_match.h"
+#include "session/photograph_difference.h"
 
 namespace tranos::session {
 
@@ -163,7 +161,9 @@ class Differ {
     if (displaced && displaced->largest_m > 0) change.by_m = displaced->by_m;
     change.parameters = std::move(kept);
     AddParameters(x, y, &change.parameters);
-    AddCamera(x, y, &change.parameters);
+    for (ParameterChange& found : PhotographChanges(x, y)) {
+      change.parameters.push_back(std::move(found));
+    }
     AddFirings(earlier, later, &change.parameters);
     const auto repeats = [&](std::size_t at) {
       return std::any_of(
@@ -204,32 +204,6 @@ class Differ {
   }
 
   // Of placed elements, defaults included.
-  // "40.4 mm (+0.4 mm, 3.1 of its deviations)".
-  static void AddCamera(const Element& x, const Element& y, std::vector<ParameterChange>* out) {
-    const auto *p = std::get_if<model::PhotographPtr>(&x.geometry),
-               *q = std::get_if<model::PhotographPtr>(&y.geometry);
-    if (!p || !q || !(*p)->estimate || !(*q)->estimate) return;
-    const camera::Estimate &before = *(*p)->estimate, &after = *(*q)->estimate;
-    for (int i = 0; i < camera::kParameters; ++i) {
-      const camera::ParameterRow& row = camera::kParameterRows[i];
-      const auto text = [&](const camera::Estimate& estimate) {
-        return estimate.parameters[i].free()
-                   ? std::string("not determined")
-                   : fmt::format("{:.6g} {}", estimate.camera.parameters[i] / row.per_unit,
-                                 row.unit);
-      };
-      std::string was = text(before), is = text(after);
-      if (was == is) continue;
-      if (!before.parameters[i].free() && !after.parameters[i].free()) {
-        const double by = after.camera.parameters[i] - before.camera.parameters[i];
-        is += fmt::format(" ({:+.3g} {}", by / row.per_unit, row.unit);
-        const double sigma = before.covariance.size() ? before.parameters[i].sigma : 0;
-        if (sigma > 0) is += fmt::format(", {:.1f} of its deviations", std::abs(by) / sigma);
-        is += ")";
-      }
-      out->push_back({std::string(row.words), std::move(was), std::move(is)});
-    }
-  }
   static void AddParameters(const Element& x, const Element& y, std::vector<ParameterChange>* out) {
     const auto *p = std::get_if<model::InstancePtr>(&x.geometry),
                *q = std::get_if<model::InstancePtr>(&y.geometry);

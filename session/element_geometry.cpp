@@ -64,6 +64,7 @@ class GeometryWriter {
     out_->Key("content").String(model::Hex(photograph->content));
     out_->Key("size_px").Open('[').Integer(size_px.x()).Integer(size_px.y()).Close(']');
     out_->Key("size_mm").Open('[').Ratio(size_mm.x()).Ratio(size_mm.y()).Close(']');
+    Priors(photograph->priors);
     if (!photograph->estimate) return;
     out_->Key("camera").Open('[');
     for (int i = 0; i < camera::kParameters; ++i) {
@@ -80,6 +81,12 @@ class GeometryWriter {
     out_->Close(']').Key("numbers").Open('[');
     for (const model::Value& number : trace->numbers) out_->Length(number.number());
     out_->Close(']');
+    if (trace->kind == model::Trace::Kind::kDirection) {
+      out_->Key("axis").String(
+          std::string_view("xyz").substr(static_cast<std::size_t>(trace->axis), 1));
+    }
+    out_->Key("noise_px").Ratio(trace->noise_px).Key("facade").String(trace->facade);
+    if (trace->samples > 0) out_->Key("samples").Ratio(trace->samples);
   }
   void operator()(const geom::Line& line) {
     out_->Key("start").Point(line.start).Key("end").Point(line.end);
@@ -127,6 +134,15 @@ class GeometryWriter {
   }
 
  private:
+  void Priors(const camera::Prior (&priors)[camera::kIntrinsics]) {
+    out_->Key("priors").Open('{');
+    for (int i = 0; i < camera::kIntrinsics; ++i) {
+      if (!(priors[i].sigma > 0)) continue;
+      out_->Key(camera::kParameterNames[i]).Open('[');
+      out_->Ratio(priors[i].value).Ratio(priors[i].sigma).Close(']');
+    }
+    out_->Close('}');
+  }
   void Side(std::string_view key, const geom::BsplineCurve& curve) {
     out_->Key(key).Open('{');
     (*this)(curve);

@@ -41,7 +41,7 @@ void AddCopies(const Answers& answers, const Affine& target_from_source, Fired* 
 }
 
 CommandResult Rectangular(const State& state, const Answers& answers) {
-  if (auto error = NothingChosen(answers)) return Fail(*error);
+  if (auto error = NothingToMove(answers)) return Fail(*error);
   if (auto error = TooFar(answers)) return Fail(*error);
   const double columns = answers.Number("columns", 1), rows = answers.Number("rows", 1),
                layers = answers.Number("layers", 1);
@@ -72,7 +72,7 @@ double PolarStep(double angle_rad, int count) {
 }
 
 CommandResult Polar(const State& state, const Answers& answers) {
-  if (auto error = NothingChosen(answers)) return Fail(*error);
+  if (auto error = NothingToMove(answers)) return Fail(*error);
   if (auto error = TooFar(answers)) return Fail(*error);
   if (auto error = BadCount(answers.Number("count"), answers, {Where::kKey, 0, "count"})) {
     return Fail(*error);
@@ -140,7 +140,7 @@ std::optional<double> Heading(const geom::Curve& path, const Vec3& at, const geo
 }
 
 CommandResult AlongPath(const State& state, const Answers& answers) {
-  if (auto error = NothingChosen(answers)) return Fail(*error);
+  if (auto error = NothingToMove(answers)) return Fail(*error);
   if (auto error = TooFar(answers)) return Fail(*error);
   const auto path = PathOf(answers);
   if (!path) return Fail(path.error());

@@ -5,6 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <string>
+#include <vector>
 
 #include "interp/commands/families.h"
 #include "interp/commands/firing.h"
@@ -16,28 +19,126 @@ using model::State;
 
 namespace {
 
-// Of the poses that explain the traces, the one that is asked for. Facades face the negative Y.
+using camera::Mat3;
+using geom::Vec2;
+using geom::Vec3;
+
+// What a photograph's traces say of a facade.
+struct Facade {
+  std::string name;
+  const model::Trace* rectangle = nullptr;  // the first on it
+};
+
+struct Facades {
+  std::vector<Facade> named;    // in the order of their traces
+  bool world_is_fixed = false;  // by edges or points; else the first is the plane y = 0
+
+  const Facade* Find(const std::string& name) const {
+    const auto found = std::find_if(named.begin(), named.end(),
+                                    [&](const Facade& facade) { return facade.name == name; });
+    return found == named.end() ? nullptr : &*found;
+  }
+};
+
+Facades FacadesOf(const State& state, model::ElementId photograph) {
+  Facades out;
+  state.model.ForEach([&](const model::ElementPtr& element) {
+    const auto* held = std::get_if<model::TracePtr>(&element->geometry);
+    if (!held || (*held)->photograph != photograph) return;
+    const model::Trace& trace = **held;
+    using Kind = model::Trace::Kind;
+    if (trace.kind == Kind::kDirection) return;
+    if (trace.kind == Kind::kEdge || trace.kind == Kind::kElement || trace.kind == Kind::kPoint) {
+      out.world_is_fixed = true;
+      return;
+    }
+    auto known = std::find_if(out.named.begin(), out.named.end(),
+                              [&](const Facade& facade) { return facade.name == trace.facade; });
+    if (known == out.named.end()) known = out.named.insert(known, {trace.facade});
+    if (trace.kind == Kind::kRectangle && !known->rectangle) known->rectangle = &trace;
+  });
+  return out;
+}
+
+// Whether the camera sees the rectangle from outside: its dots go anticlockwise from bottom left,
+// so that its outward normal is its X, found by its vanishing point, by Z.
+bool IsBefore(const camera::Camera& camera, const camera::Frame& frame,
+              const model::Trace& rectangle) {
+  const Mat3 camera_from_dot =
+      (frame.DotFromFrame() * camera::FrameFromCamera(camera.parameters)).inverse();
+  const Mat3 world_from_camera = camera::CameraFromWorld(camera.parameters).transpose();
+  Vec3 ray[4];
+  for (std::size_t i = 0; i < 4; ++i) ray[i] = camera_from_dot * rectangle.dots_px[i].homogeneous();
+  Vec3 along = ray[0].cross(ray[1]).cross(ray[3].cross(ray[2]));
+  const Vec2 moved = along.head<2>() - along.z() * ray[0].head<2>();
+  if (moved.dot((ray[1] - ray[0]).head<2>()) < 0) along = -along;
+  const Vec3 outward = (world_from_camera * along).cross(Vec3::UnitZ());
+  return outward.dot(world_from_camera * (ray[0] + ray[2])) < 0;
+}
+
+CommandError NoFacade(const std::string& name, const Facades& facades) {
+  std::string known;
+  for (const Facade& facade : facades.named) {
+    known += (known.empty() ? "`" : ", `") + Printable(facade.name) + "`";
+  }
+  return {.code = Code::kUnknownName,
+          .message = fmt::format("no facade is called `{}`", Printable(name)),
+          .label = known.empty() ? "nothing was traced on a facade" : "traced are " + known,
+          .help =
+              "`trace rectangle … facade=NAME` declares one; `recover camera near=[x,y,z]` says "
+              "about where the camera stood",
+          .where = {Where::kKey, 0, "facade"}};
+}
+
+// How little a camera is the one that is asked for.
+using Score = std::function<double(const camera::Camera&)>;
+
+tl::expected<Score, CommandError> ScoreOf(const State& state, const Answers& answers,
+                                          const model::Element& photograph) {
+  if (const auto near = answers.Point("near")) {
+    return [near](const camera::Camera& camera) { return (camera.position_m() - *near).norm(); };
+  }
+  const Facades facades = FacadesOf(state, photograph.id);
+  const std::string name = answers.Text("facade");
+  const Facade* facade = facades.Find(name);
+  if (!name.empty() && !facade) return Fail(NoFacade(name, facades));
+  if (facade && facade->rectangle) {
+    return [rectangle = *facade->rectangle,
+            frame = PhotographOf(photograph).frame](const camera::Camera& camera) {
+      return IsBefore(camera, frame, rectangle) ? 0.0 : 1.0;
+    };
+  }
+  if (facade && (facades.world_is_fixed || facade != facades.named.data())) {
+    return Fail(
+        {.code = Code::kNotDetermined,
+         .message = fmt::format("which way the facade `{}` faces is not known", Printable(name)),
+         .label = "no rectangle was traced on it",
+         .help = "trace one, or say about where the camera stood: near=[x,y,z]",
+         .where = {Where::kKey, 0, "facade"}});
+  }
+  return [](const camera::Camera& camera) { return camera[camera::kY0] < 0 ? 0.0 : 1.0; };
+}
+
+// Of the poses that explain the traces, the one that is asked for; without a word on which, the one
+// before the plane y = 0.
 CommandResult RecoverCamera(const State& state, const Answers& answers) {
   const auto found = PhotographMeant(state, answers);
   if (!found) return Fail(found.error());
   model::Photograph changed = PhotographOf(**found);
   if (!changed.estimate) return Fail(NoCameraYet(**found));
+  const auto score = ScoreOf(state, answers, **found);
+  if (!score) return Fail(score.error());
   camera::Estimate estimate = *changed.estimate;
-  const auto near = answers.Point("near");
-  const auto score = [&](const camera::Camera& camera) {
-    if (near) return (camera.position_m() - *near).norm();
-    return camera[camera::kY0] < 0 ? 0.0 : 1.0;
-  };
   auto best = estimate.alternatives.end();
-  double least = score(estimate.camera);
+  double least = (*score)(estimate.camera);
   for (auto other = estimate.alternatives.begin(); other != estimate.alternatives.end(); ++other) {
-    if (score(other->camera) >= least) continue;
-    least = score(other->camera);
+    if ((*score)(other->camera) >= least) continue;
+    least = (*score)(other->camera);
     best = other;
   }
   Fired fired;
   if (best == estimate.alternatives.end()) {
-    if (!near && least > 0) {
+    if (!answers.Has("near") && least > 0) {
       return Fail({.code = Code::kNotDetermined,
                    .message = "no pose of the camera has the facade before it"});
     }
@@ -46,6 +147,7 @@ CommandResult RecoverCamera(const State& state, const Answers& answers) {
   std::swap(estimate.camera, best->camera);
   std::swap(estimate.chi2, best->chi2);
   std::swap(estimate.covariance, best->covariance);
+  std::swap(estimate.deviations, best->deviations);
   for (int i = 0; i < camera::kParameters && estimate.covariance.size() > 0; ++i) {
     estimate.parameters[i].sigma = std::sqrt(std::max(estimate.covariance(i, i), 0.0));
   }
@@ -88,8 +190,12 @@ constexpr Example kCalibrateExamples[] = {
     {"calibrate", "E0901"}};
 constexpr Example kRecoverExamples[] = {
     {"place camera f=35mm format=36mm,24mm size=1600,1067 xy=10,-30,2 as paper\n"
+     "set camera paper\n"
+     "trace rectangle a=6m b=4m facade=front\n"
+     "dot=600,700 dot=1000,700 dot=1000,433 dot=600,433\n"
      "recover camera photo=paper facade=front",
      "paper.y == -30m"},
+    {TRANOS_HALL "calibrate; recover camera facade=front", "E0201"},
     {TRANOS_HALL "calibrate; recover camera near=[20,-25,2]", "hall.y < -20m"},
     {"recover camera facade=front", "E0901"}};
 #undef TRANOS_HALL

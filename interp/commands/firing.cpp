@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "interp/commands/range.h"
@@ -87,6 +88,34 @@ std::optional<CommandError> NothingChosen(const Answers& answers) {
   return CommandError{.code = Code::kNothingChosen,
                       .message = "nothing is chosen",
                       .help = "choose first (`choose element;xy=…`), or give `of=`"};
+}
+
+namespace {
+
+bool IsOfPhotograph(const model::Element& element) {
+  if (const auto* group = std::get_if<model::GroupPtr>(&element.geometry)) {
+    return std::any_of((*group)->members.begin(), (*group)->members.end(),
+                       [](const ElementPtr& member) { return IsOfPhotograph(*member); });
+  }
+  return std::holds_alternative<model::PhotographPtr>(element.geometry) ||
+         std::holds_alternative<model::TracePtr>(element.geometry);
+}
+
+}  // namespace
+
+std::optional<CommandError> NothingToMove(const Answers& answers) {
+  for (std::size_t i = 0; i < answers.chosen.size(); ++i) {
+    const model::Element& element = *answers.chosen[i];
+    if (!IsOfPhotograph(element)) continue;
+    const bool is_group = std::holds_alternative<model::GroupPtr>(element.geometry);
+    return CommandError{
+        .code = Code::kWrongElement,
+        .message = fmt::format("{} has {}no place in space to be changed", NameForMessage(element),
+                               is_group ? "traces, with " : ""),
+        .help = "attach or trace it again; `step camera` moves a camera",
+        .where = {Where::kChosen, static_cast<int>(i), {}}};
+  }
+  return NothingChosen(answers);
 }
 
 CommandResult Make(const State& state, model::Geometry geometry) {

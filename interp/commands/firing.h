@@ -34,6 +34,9 @@ std::optional<CommandError> TooFar(const Answers& answers);
 // An error if nothing is chosen.
 std::optional<CommandError> NothingChosen(const Answers& answers);
 
+// As NothingChosen; photographs and traces, which have no place in space, are refused, too.
+std::optional<CommandError> NothingToMove(const Answers& answers);
+
 // The active plane, moved to this origin.
 geom::Frame PlaneAt(const model::State& state, const geom::Vec3& origin);
 // The error of a data point that lies this far off it.

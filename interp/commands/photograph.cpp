@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Photographs and cameras: attach, priors, stated cameras, and what is known of one.
+// Photographs and cameras: attach, stated cameras, and what is known of one.
 #include <fmt/format.h>
 
 #include <cmath>
 #include <span>
 
 #include "camera/photo.h"
-#include "interp/arithmetic.h"
 #include "interp/camera_report.h"
 #include "interp/commands/families.h"
 #include "interp/commands/firing.h"
@@ -167,53 +166,6 @@ CommandResult SetCamera(const State& state, const Answers& answers) {
   return fired;
 }
 
-// A prior on each of the parameters that the statement names.
-CommandResult StatePrior(const State& state, const Answers& answers,
-                         const Surroundings& surroundings) {
-  const auto found = PhotographMeant(state, answers);
-  if (!found) return Fail(found.error());
-  model::Photograph changed = PhotographOf(**found);
-  const geom::Vec2& size_mm = changed.frame.size_mm;
-  const auto set = [&](camera::Parameter parameter, double value, double sigma) {
-    changed.priors[parameter] = {value, sigma};
-  };
-  const auto principal = [&](double share) {
-    set(camera::kPrincipalX, 0, share * size_mm.x());
-    set(camera::kPrincipalY, 0, share * size_mm.y());
-  };
-  if (answers.HasWord("default")) {
-    set(camera::kAspect, 1, 0.03);
-    principal(0.05);
-    set(camera::kSkew, kPi / 2, kDegree);
-  }
-  for (const auto& [key, value] : answers.keys) {
-    if (key == "photo") continue;
-    const double sigma = Sigma(value, surroundings.sources);
-    if (!(sigma > 0)) {
-      return Fail({.code = Code::kOutOfRange,
-                   .message = fmt::format("a prior on the {} states how sure it is", key),
-                   .help = fmt::format("prior {} = {}", key,
-                                       key == "aspect"      ? "1 +- 3%"
-                                       : key == "skew"      ? "90deg +- 1deg"
-                                       : key == "principal" ? "centre +- 5%"
-                                                            : "40mm +- 5%"),
-                   .where = AtKey(key)});
-    }
-    if (key == "aspect") set(camera::kAspect, value.number(), sigma);
-    if (key == "skew") set(camera::kSkew, value.number(), sigma);
-    if (key == "focal") set(camera::kFocal, value.number() * 1e3, sigma * 1e3);
-    if (key == "principal") principal(sigma);
-  }
-  if (answers.keys.empty() && answers.words.empty()) {
-    return Fail({.code = Code::kMissingValue,
-                 .message = "what is assumed of the camera?",
-                 .help = "prior default; prior aspect = 1 +- 3%"});
-  }
-  Fired fired;
-  fired.edit.replaced.push_back(WithPhotograph(**found, std::move(changed)));
-  return fired;
-}
-
 CommandResult ReportCamera(const State& state, const Answers& answers, const Surroundings&) {
   const auto found = PhotographMeant(state, answers);
   if (!found) return Fail(found.error());
@@ -306,14 +258,6 @@ constexpr Key kCameraKeys[] = {
     {"phi", Type::kAngle, "pan, to the left", {}, "0deg"},
     {"kappa", Type::kAngle, "swing", {}, "0deg"}};
 constexpr Key kPhotoKeys[] = {kPhotoKey};
-constexpr Key kPriorKeys[] = {
-    kPhotoKey,
-    {"aspect", Type::kNumber, "f in y by f in x, with its deviation"},
-    {"principal", Type::kNumber, "the principal point: `centre +-` a share of the width and height",
-     "centre"},
-    {"skew", Type::kAngle, "the angle between the dot's axes, with its deviation"},
-    {"focal", Type::kLength, "the focal length, with its deviation"}};
-
 constexpr auto StepKeys() {
   std::array<Key, std::size(kMovable) + 1> keys{};
   keys[0] = kPhotoKey;
@@ -338,12 +282,6 @@ constexpr Example kPlaceCameraExamples[] = {
 constexpr Example kSetCameraExamples[] = {{TRANOS_CAMERA "set camera paper", "true"},
                                           {TRANOS_CAMERA "set camera photo=paper", "true"},
                                           {"set camera hall", "E0201"}};
-constexpr Example kPriorExamples[] = {
-    {TRANOS_PHOTO "prior photo=hall aspect=1 +- 3% principal=centre +- 5%"
-                  " skew=90deg +- 1deg focal=40mm +- 10%",
-     "true"},
-    {TRANOS_PHOTO "prior default", "true"},
-    {TRANOS_PHOTO "prior aspect=1", "E0212"}};
 constexpr Example kReportExamples[] = {{TRANOS_CAMERA "report camera paper", "true"},
                                        {TRANOS_CAMERA "report camera photo=paper", "true"},
                                        {TRANOS_PHOTO "report camera hall", "E0902"}};
@@ -379,14 +317,6 @@ constexpr Command kCommands[] = {
      .asks = "camera",
      .examples = kSetCameraExamples,
      .execute = SetCamera},
-    {.words = "prior",
-     .family = "photograph",
-     .summary = "States what is assumed of a camera before the data speak; `prior default` is "
-                "aspect = 1 +- 3%, principal = centre +- 5%, skew = 90deg +- 1deg.",
-     .keys = kPriorKeys,
-     .options = "default",
-     .examples = kPriorExamples,
-     .execute_with = StatePrior},
     {.words = "report camera",
      .family = "photograph",
      .summary = "Prints a camera's parameters, pose, residuals, deviations and warnings.",

@@ -2,6 +2,8 @@
 // trace: what is seen on a photograph of things whose direction, place or size is known.
 #include <fmt/format.h>
 
+#include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
 
 #include "interp/commands/families.h"
@@ -90,21 +92,34 @@ void AddPoint(const Value& point, std::vector<Value>* numbers) {
   }
 }
 
+// Which edge it is must be said once.
+std::optional<CommandError> UnsaidEdge(const Answers& answers) {
+  const bool from = answers.Has("from"), to = answers.Has("to");
+  const int said = static_cast<int>(answers.words.size()) + answers.Has("of") + (from || to);
+  if (said == 1 && from == to) return std::nullopt;
+  if (said == 1) {
+    return CommandError{
+        .code = Code::kMissingValue,
+        .message = fmt::format("an edge in space has two ends, and `{}=` is not given",
+                               from ? "to" : "from"),
+        .help = "trace edge from=[0,0,0] to=[0,14m,0] …",
+        .where = {Where::kKey, 0, from ? "from" : "to"}};
+  }
+  return CommandError{
+      .code = Code::kMissingValue,
+      .message = said == 0 ? "which edge is it? An axis, both ends, or an element of the model"
+                           : "which edge it is may be said once: an axis, both ends, or an element",
+      .help = "trace edge x …; trace edge from=[0,0,0] to=[0,14m,0] …; trace edge of=sill …"};
+}
+
 CommandResult TraceEdge(const State& state, const Answers& answers) {
   Trace trace{.kind = Kind::kDirection};
   const auto samples = SamplesOf(answers);
   if (!samples) return Fail(samples.error());
   trace.samples = *samples;
-  const bool in_space = answers.Has("from") && answers.Has("to");
-  const int said = static_cast<int>(answers.words.size()) + answers.Has("of") + in_space;
-  if (said != 1) {
-    return Fail({.code = Code::kMissingValue,
-                 .message = "which edge is it? An axis, both ends, or an element of the model",
-                 .help = "trace edge x …; trace edge from=[0,0,0] to=[0,14m,0] …; "
-                         "trace edge of=sill …"});
-  }
+  if (const auto error = UnsaidEdge(answers)) return Fail(*error);
   if (!answers.words.empty()) trace.axis = answers.words[0][0] - 'x';
-  if (in_space) {
+  if (answers.Has("from")) {
     trace.kind = Kind::kEdge;
     if ((*answers.Point("from") - *answers.Point("to")).norm() <= geom::kCoincident_m) {
       return Fail({.code = Code::kBadTrace,
@@ -189,7 +204,27 @@ CommandResult TraceRatio(const State& state, const Answers& answers) {
   return MakeTrace(state, answers, std::move(trace), 4);
 }
 
+// How far dots lie off the line through them, in pixels, on the average.
+double OffLine(const std::vector<geom::Vec3>& dots) {
+  Vec2 mean = Vec2::Zero();
+  for (const geom::Vec3& dot : dots) mean += dot.head<2>() / static_cast<double>(dots.size());
+  Eigen::Matrix2d scatter = Eigen::Matrix2d::Zero();
+  for (const geom::Vec3& dot : dots) {
+    const Vec2 from_mean = dot.head<2>() - mean;
+    scatter += from_mean * from_mean.transpose();
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(scatter);
+  return std::sqrt(std::max(solver.eigenvalues()[0], 0.0) / static_cast<double>(dots.size()));
+}
+
 CommandResult TraceCircle(const State& state, const Answers& answers) {
+  const double noise_px = state.drawing.settings->noise_px;
+  if (OffLine(answers.points) <= (noise_px > 0 ? noise_px : 0.5)) {
+    return Fail({.code = Code::kBadTrace,
+                 .message = "the dots of the circle lie on one line, within their noise",
+                 .label = "this trace",
+                 .help = "five dots or more, all around it"});
+  }
   return MakeTrace(state, answers, Trace{.kind = Kind::kCircle}, 0);
 }
 
@@ -249,7 +284,8 @@ constexpr Example kCircleExamples[] = {
     {TRANOS_PHOTO "trace circle facade=front photo=hall\n"
                   "dot=100,50 dot=150,100 dot=100,150 dot=50,100 dot=135,64 as oculus",
      "len(oculus.dots) == 5"},
-    {TRANOS_PHOTO "trace circle dot=100,50 dot=150,100", "E0402"}};
+    {TRANOS_PHOTO "trace circle dot=100,50 dot=150,100", "E0402"},
+    {TRANOS_PHOTO "trace circle dot=0,0 dot=50,50 dot=100,100 dot=150,150 dot=200,200", "E0903"}};
 #undef TRANOS_PHOTO
 
 // What all traces have in common: they gather dots, and become one element when they end.
@@ -257,6 +293,7 @@ constexpr Command Tracing(Command row) {
   row.manner = Manner::kGathers;
   row.prompts = kDots;
   row.dots = true;
+  row.informs = true;
   return row;
 }
 

@@ -60,7 +60,7 @@ Motion Enlargement(const State& state, const Answers& answers) {
 
 template <MotionOf kMotion, Fired (*kCarryOut)(const Answers&, const Affine&)>
 CommandResult Carry(const State& state, const Answers& answers) {
-  if (auto error = NothingChosen(answers)) return Fail(*error);
+  if (auto error = NothingToMove(answers)) return Fail(*error);
   if (auto error = TooFar(answers)) return Fail(*error);
   const Motion motion = kMotion(state, answers);
   if (!motion) return Fail(motion.error());

@@ -37,6 +37,18 @@ class Photograph(harness.ProgramTest):
         self.assertAlmostEqual(rows[4][4] ** 0.5, camera["sigma"]["skew_deg"], places=12)
         self.assertAlmostEqual(camera["unknowns"]["height"]["value"], 7.5, places=3)
         self.assertGreater(camera["unknowns"]["height"]["sigma"], 0)
+        self.assertEqual(camera["priors"], {})
+        self.assertAlmostEqual(sum(camera["shares"]["f_mm"].values()), 1)
+
+    def test_report_tells_priors_and_trials(self):
+        text = SCRIPT.replace("unknown", "prior skew = 89deg +- 1deg\nunknown", 1)
+        camera = self.camera(text.replace("calibrate", "calibrate trials=10", 1))
+        self.assertAlmostEqual(camera["priors"]["alpha"]["sigma"], 1)
+        self.assertGreater(camera["shares"]["skew_deg"]["priors"], 0)
+        self.assertEqual(camera["trials"]["trials"], 10)
+        self.assertEqual(len(camera["trials"]["mean"]), 11)
+        printed = self.run_script(text + "\nreport camera hall\n").out
+        self.assertRegex(printed, r"prior α 89 ± 1°, priors are \d+ % of the result")
 
     def test_what_is_not_determined_gets_no_number(self):
         text = (GOLDENS / "a_facade_alone_leaves_the_camera_open.trn").read_text(encoding="utf-8")
@@ -45,7 +57,16 @@ class Photograph(harness.ProgramTest):
         self.assertIsNone(camera["sigma"]["skew_deg"])
         self.assertFalse(camera["determined"]["skew_deg"])
         self.assertTrue(camera["undetermined"])
-        self.assertEqual(len(camera["facade_homography"]), 3)
+        self.assertEqual(len(camera["rectangles"][0]["homography"]), 3)
+
+    def test_what_a_method_assumes_is_not_determined_by_it(self):
+        text = (GOLDENS / "calibrate_by_dlt.trn").read_text(encoding="utf-8")
+        camera = self.camera(text.partition("calibrate")[0] + "calibrate method=orthocentre")
+        for name in ["aspect", "skew_deg"]:
+            self.assertFalse(camera["determined"][name])
+            self.assertTrue(camera["from_prior"][name])
+        self.assertEqual(camera["aspect"], 1)
+        self.assertTrue(camera["determined"]["f_mm"])
 
     def test_camera_in_the_model(self):
         self.run_script(SCRIPT)
@@ -83,6 +104,29 @@ class Photograph(harness.ProgramTest):
         self.write("b.trn", SCRIPT.replace("dot=759.305603241,986.421140680", "dot=761.305603241,986.421140680"))
         compared = self.tranos("diff", "a.trn", "b.trn")
         self.assertRegex(compared.out, r"photograph `hall`: .*focal length .* mm, [0-9.]+ of its deviations\)")
+
+    def compared(self, before, after):
+        self.write("a.trn", before)
+        self.write("b.trn", after)
+        return self.tranos("diff", "a.trn", "b.trn").out
+
+    def test_comparison_tells_what_was_assumed(self):
+        stated = SCRIPT.replace("unknown", "prior aspect = 1 +- 3%; prior skew = 89deg +- 1deg\nunknown", 1)
+        told = self.compared(stated, stated.replace("3%", "5%").replace("89deg +- 1deg", "89deg +- 2deg"))
+        self.assertIn("prior aspect 1 +- 3 % -> 1 +- 5 %", told)
+        self.assertIn("prior skew 89 +- 1° -> 89 +- 2°", told)
+        self.assertIn("prior aspect none -> 1 +- 3 %", self.compared(SCRIPT, stated))
+
+    def test_comparison_tells_noise_and_format(self):
+        told = self.compared(SCRIPT, SCRIPT.replace("unknown", "noise=1px\nunknown", 1))
+        self.assertIn("trace edge: noise 0.5 px -> 1 px", told)
+        told = self.compared(SCRIPT, SCRIPT.replace("24.0075mm", "24mm"))
+        self.assertIn("format 36 × 24.0075 mm -> 36 × 24 mm", told)
+        self.assertNotIn("format [", told)
+
+    def test_comparison_tells_no_rounding(self):
+        told = self.compared(SCRIPT, SCRIPT.replace("unknown", "prior aspect = 1 +- 3%\nunknown", 1))
+        self.assertNotRegex(told, r"e-1\d mm")
 
     def test_runs_the_same_from_another_folder(self):
         first = self.report_of(SCRIPT, "--no-output")

@@ -46,6 +46,23 @@ TEST(ConicRows, OfDirectionsAloneAreTheAngles) {
   ExpectFulfilled(rows, TrueConic(cuboid, traced.photograph.frame));
 }
 
+TEST(ConicRows, ACircleOnTheMainFacadeIsASquareWhateverItsSize) {
+  const Cuboid& cuboid = CuboidOf("B1");
+  TracedCuboid traced = TraceCuboid(cuboid, {.edges = false, .directions = true});
+  const int of_directions = RankOfRows(ConicRowsOf(traced.photograph, traced.numbers).all());
+  CircleTrace circle{{}, 0.5, 0};
+  for (int i = 0; i < 7; ++i) {
+    const Vec3 out(std::cos(0.9 * i), 0, std::sin(0.9 * i));
+    circle.dots_px.push_back(DotAt(cuboid, cuboid.offset_m + Vec3(5, 0, 3) + 1.5 * out));
+  }
+  traced.photograph.traces.emplace_back(circle);
+  const ConicRows rows = ConicRowsOf(traced.photograph, traced.numbers);
+  EXPECT_EQ(rows.metric.size(), 2u);
+  EXPECT_EQ(RankOfRows(rows.all()), of_directions + 1);
+  const Conic conic = TrueConic(cuboid, traced.photograph.frame);
+  for (const Conic& row : rows.all()) EXPECT_LT(std::abs(row.dot(conic)), 1e-9 * row.norm());
+}
+
 TEST(ConicRows, ARatioOnTheMainFacadeIsLinearAndTheFourthConstraint) {
   const Cuboid& cuboid = CuboidOf("B1");
   TracedCuboid traced = TraceCuboid(cuboid, {.edges = false, .directions = true});
