@@ -47,9 +47,13 @@ bool Touch(const Curve& a, const Box& box_a, const Curve& b, const Box& box_b) {
   return !Crossings(a, b).empty() || EndsOn(a, b) || EndsOn(b, a);
 }
 
-tl::expected<void, Error> CheckApart(const std::vector<Curve>& outlines) {
-  std::vector<Box> boxes;
-  for (const Curve& outline : outlines) boxes.push_back(BoundingBox(outline));
+bool IsWithin(const Box& box, const Vec3& p) {
+  return ((p - box.min).array() >= -kMeeting_m).all() &&
+         ((box.max - p).array() >= -kMeeting_m).all();
+}
+
+tl::expected<void, Error> CheckApart(const std::vector<Curve>& outlines,
+                                     const std::vector<Box>& boxes) {
   for (std::size_t i = 0; i < outlines.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
       if (Touch(outlines[j], boxes[j], outlines[i], boxes[i])) {
@@ -141,14 +145,17 @@ Result<Region> RegionOf(const std::vector<Curve>& outlines) {
   }
   const Result<Frame> plane = CheckOutlines(outlines);
   if (!plane) return tl::unexpected(plane.error());
-  if (auto apart = CheckApart(outlines); !apart) return tl::unexpected(apart.error());
+  std::vector<Box> boxes;
+  for (const Curve& outline : outlines) boxes.push_back(BoundingBox(outline));
+  if (auto apart = CheckApart(outlines, boxes); !apart) return tl::unexpected(apart.error());
   // Outlines do not meet, so that one lies in another if one of its points does.
   const std::size_t count = outlines.size();
   std::vector<std::vector<std::size_t>> around(count);
   for (std::size_t i = 0; i < count; ++i) {
     const Vec3 p = PointAt(outlines[i], 0);
     for (std::size_t j = 0; j < count; ++j) {
-      if (j != i && WindingNumber(outlines[j], *plane, p) != 0) around[i].push_back(j);
+      if (j == i || !IsWithin(boxes[j], p)) continue;
+      if (WindingNumber(outlines[j], *plane, p) != 0) around[i].push_back(j);
     }
   }
   Region region{*plane, {}};

@@ -93,6 +93,19 @@ TEST(RegionOf, TellsApartWhatChordsWouldCross) {
   EXPECT_NEAR(FacetArea(region, {1e-2}), kPi * 75, 1);
 }
 
+TEST(RegionOf, TakesManyOutlinesAndLiesFarOut) {
+  std::vector<Curve> outlines;
+  for (int i = 0; i < 40; ++i) {
+    for (int j = 0; j < 40; ++j) outlines.push_back(Round(1e6 + i, j, 0.3));
+  }
+  outlines.push_back(Rectangle(1e6 - 1, -1, 1e6 + 40, 40));
+  const Region region = MustRegion(outlines);
+  ASSERT_EQ(region.parts.size(), 1u);
+  EXPECT_EQ(region.parts[0].holes.size(), 1600u);
+  EXPECT_NEAR(Area(region), 41 * 41 - 1600 * 0.09 * kPi, 1e-6);
+  EXPECT_NEAR(FacetArea(region, kFine), Area(region), 1);
+}
+
 TEST(Region, MeasuresAsItsParts) {
   const Region region = MustRegion({Rectangle(0, 0, 6, 2), Rectangle(1, 0.5, 2, 1.5)});
   const Vec3 expected = (12 * Vec3(3, 1, 0) - Vec3(1.5, 1, 0)) / 11;
