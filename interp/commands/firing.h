@@ -34,6 +34,11 @@ std::optional<CommandError> TooFar(const Answers& answers);
 // An error if nothing is chosen.
 std::optional<CommandError> NothingChosen(const Answers& answers);
 
+// The elements that a key lists, as they now are; E0407 at the key if one was deleted.
+tl::expected<std::vector<model::ElementPtr>, CommandError> ListedBy(const model::State& state,
+                                                                    const Answers& answers,
+                                                                    std::string_view key);
+
 // The active plane, moved to this origin.
 geom::Frame PlaneAt(const model::State& state, const geom::Vec3& origin);
 // The error of a data point that lies this far off it.
