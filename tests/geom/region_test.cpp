@@ -83,6 +83,7 @@ TEST(RegionOf, NamesTheOutlineAtFault) {
   Frame above;
   above.origin = {1, 1, 1};
   EXPECT_EQ(fault({Square(0, 4), Circle{above, 0.5}}), Fault(ErrorCode::kNotPlanar, 1));
+  EXPECT_EQ(fault({Square(0, 4), Round(1, 1, 1e-12)}), Fault(ErrorCode::kDegenerate, 1));
   EXPECT_EQ(fault({}), Fault(ErrorCode::kDegenerate, -1));
 }
 
