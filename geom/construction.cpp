@@ -110,6 +110,7 @@ Result<BsplineCurve> CurveThrough(const std::vector<Vec3>& points, bool closed) 
   curve.poles.push_back(points[spans % count]);
   knots.insert(knots.end(), 3, knots.back());
   curve.knots = std::move(knots);
+  if (!Check(curve)) return Degenerate("its points are too unevenly spaced", count - 1);
   return curve;
 }
 

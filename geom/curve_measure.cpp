@@ -101,10 +101,25 @@ Vec3 IntegrateAlong(const Curve& curve, double scale, const F& of_jet) {
 // which the curve runs counter-clockwise.
 Vec3 AreaVector(const Curve& curve, const Vec3& origin) {
   const Box box = BoundingBox(curve);
-  const double scale = (box.max - box.min).squaredNorm();
-  return 0.5 * IntegrateAlong(curve, scale, [&](const CurveJet& jet) -> Vec3 {
-           return (jet.point - origin).cross(jet.d1);
-         });
+  const double size = (box.max - box.min).norm();
+  // Far from the world's origin coordinates are rounded by more than the size would tell.
+  const double scale = size * std::max(size, 0.1 * box.centre().norm());
+  Vec3 twofold = Vec3::Zero();
+  ForEachPiece(curve, Overloaded{[&](const Line& line, double, double) {
+                                   twofold += (line.start - origin).cross(line.end - origin);
+                                 },
+                                 [&](const Arc& arc, double, double) {
+                                   const Vec3 a = JetOf(arc, 0).point, b = JetOf(arc, 1).point;
+                                   const double segment = arc.sweep_rad - std::sin(arc.sweep_rad);
+                                   twofold += (a - origin).cross(b - origin) +
+                                              segment * arc.radius * arc.radius * arc.frame.z();
+                                 },
+                                 [&](const BsplineCurve& b, double, double) {
+                                   twofold += IntegrateAlong(b, scale, [&](const CurveJet& jet) {
+                                     return Vec3((jet.point - origin).cross(jet.d1));
+                                   });
+                                 }});
+  return 0.5 * twofold;
 }
 
 }  // namespace

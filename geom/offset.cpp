@@ -137,38 +137,67 @@ void AddCuts(const Curve& a, const Curve& b, std::vector<double>* at_a, std::vec
   }
 }
 
-// The pieces cut where they meet one another.
-std::vector<Curve> CutAtCrossings(const std::vector<Piece>& raw) {
+// Tells points that keep away from a curve from those that come nearer.
+class Keeper {
+ public:
+  Keeper(const std::vector<Piece>& pieces, double distance_m)
+      : nearest_m_(distance_m - kMeeting_m) {
+    for (const Piece& piece : pieces) {
+      pieces_.push_back(AsCurve(piece));
+      boxes_.push_back(BoundingBox(pieces_.back()));
+    }
+  }
+
+  bool KeepsAway(const Vec3& p) {
+    if (IsNear(last_, p)) return false;
+    for (std::size_t i = 0; i < pieces_.size(); ++i) {
+      if (!IsNear(i, p)) continue;
+      last_ = i;
+      return false;
+    }
+    return true;
+  }
+
+ private:
+  bool IsNear(std::size_t i, const Vec3& p) const {
+    const Vec3 off = (boxes_[i].min - p).cwiseMax(p - boxes_[i].max).cwiseMax(0.0);
+    if (off.squaredNorm() >= nearest_m_ * nearest_m_) return false;
+    return NearestPoint(pieces_[i], p).distance_m < nearest_m_;
+  }
+
+  double nearest_m_;
+  std::vector<Curve> pieces_;
+  std::vector<Box> boxes_;
+  std::size_t last_ = 0;  // what one point is near to, the next likely is, too
+};
+
+// The parts of the moved pieces, cut where they meet one another, that keep away. As each does or
+// does not as a whole, its middle decides.
+std::vector<Curve> PartsThatKeepAway(const std::vector<Piece>& raw, Keeper keeper) {
   std::vector<Curve> curves;
   std::vector<Box> boxes;
   for (const Piece& piece : raw) {
     curves.push_back(AsCurve(piece));
     boxes.push_back(BoundingBox(curves.back()));
   }
-  std::vector<std::vector<double>> at(raw.size());
+  std::vector<std::vector<double>> at(raw.size(), {0.0, 1.0});
   for (std::size_t i = 0; i < raw.size(); ++i) {
     for (std::size_t j = i + 1; j < raw.size(); ++j) {
-      if (!MayMeet(boxes[i], boxes[j])) continue;
-      AddCuts(curves[i], curves[j], &at[i], &at[j]);
+      if (MayMeet(boxes[i], boxes[j])) AddCuts(curves[i], curves[j], &at[i], &at[j]);
     }
   }
   std::vector<Curve> parts;
   for (std::size_t i = 0; i < curves.size(); ++i) {
-    if (at[i].empty()) {
-      parts.push_back(curves[i]);
-      continue;
-    }
-    for (Curve& part : Divided(curves[i], at[i])) {
-      if (Length(part) > kMeeting_m) parts.push_back(std::move(part));
+    const double length_m = Length(curves[i]);
+    std::sort(at[i].begin(), at[i].end());
+    for (std::size_t k = 0; k + 1 < at[i].size(); ++k) {
+      const double from = at[i][k], to = at[i][k + 1];
+      if ((to - from) * length_m <= kMeeting_m) continue;
+      if (!keeper.KeepsAway(PointAt(curves[i], 0.5 * (from + to)))) continue;
+      if (auto part = PartOf(curves[i], from, to)) parts.push_back(*std::move(part));
     }
   }
   return parts;
-}
-
-// Whether all of it keeps the distance, as its middle does.
-bool KeepsAway(const Curve& part, const Curve& from, double distance_m) {
-  const double near_m = NearestPoint(from, PointAtFraction(part, 0.5)).distance_m;
-  return near_m >= distance_m - kMeeting_m;
 }
 
 // Of parts that lie on one another one is left, and none where two run against one another, for
@@ -276,9 +305,8 @@ Result<std::vector<Curve>> Offset(const Curve& curve, const Vec3& normal, double
     if (!moved) return std::vector<Curve>();
     return std::vector<Curve>{Circle{circle->frame, std::get<Arc>(*moved).radius}};
   }
-  std::vector<Curve> parts = CutAtCrossings(RawPieces(*pieces, IsClosed(curve), side, join));
-  std::erase_if(parts,
-                [&](const Curve& part) { return !KeepsAway(part, curve, std::abs(distance_m)); });
+  std::vector<Curve> parts = PartsThatKeepAway(RawPieces(*pieces, IsClosed(curve), side, join),
+                                               Keeper(*pieces, std::abs(distance_m)));
   DropDoubles(&parts);
   return Joined(std::move(parts));
 }

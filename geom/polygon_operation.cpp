@@ -62,6 +62,15 @@ PolygonSet IntersectionOf(const std::vector<PlaneFigure>& figures) {
   return set;
 }
 
+std::vector<PolygonWithHoles> Combined(const std::vector<PlaneFigure>& of,
+                                       const std::vector<PlaneFigure>& by, SetOperation operation) {
+  PolygonSet set = operation == SetOperation::kIntersection ? IntersectionOf(of) : UnionOf(of);
+  if (operation == SetOperation::kDifference) set.difference(UnionOf(by));
+  std::vector<PolygonWithHoles> polygons;
+  set.polygons_with_holes(std::back_inserter(polygons));
+  return polygons;
+}
+
 bool IsBefore(const Vec2& a, const Vec2& b) {
   return a.x() != b.x() ? a.x() < b.x() : a.y() < b.y();
 }
@@ -109,13 +118,14 @@ Result<PlaneFigure> CombineFigures(const std::vector<PlaneFigure>& of,
   }
   PlaneFigure result;
   if (of.empty()) return result;
-  PolygonSet set = operation == SetOperation::kIntersection ? IntersectionOf(of) : UnionOf(of);
-  if (operation == SetOperation::kDifference) set.difference(UnionOf(by));
-  std::vector<PolygonWithHoles> exact;
-  set.polygons_with_holes(std::back_inserter(exact));
-  for (const PolygonWithHoles& polygon : exact) {
-    PlanePolygon rounded = Rounded(polygon);
-    if (!rounded.outer.empty()) result.push_back(std::move(rounded));
+  try {
+    for (const PolygonWithHoles& polygon : Combined(of, by, operation)) {
+      PlanePolygon rounded = Rounded(polygon);
+      if (!rounded.outer.empty()) result.push_back(std::move(rounded));
+    }
+  } catch (const CGAL::Failure_exception&) {
+    // The engine's own checks, in builds that have them: loops that touch themselves are none.
+    return tl::unexpected(Error{ErrorCode::kDegenerate, "an outline touches itself"});
   }
   std::sort(result.begin(), result.end(), [](const PlanePolygon& p, const PlanePolygon& q) {
     return IsBefore(p.outer[0], q.outer[0]);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "geom/crossing.h"
 #include "geom/curve_pieces.h"
@@ -39,25 +40,37 @@ bool EndsOn(const Curve& a, const Curve& b) {
   return found;
 }
 
-bool Touch(const Curve& a, const Box& box_a, const Curve& b, const Box& box_b) {
-  if (((box_a.min - box_b.max).array() > kMeeting_m).any() ||
-      ((box_b.min - box_a.max).array() > kMeeting_m).any()) {
-    return false;
-  }
+bool Touch(const Curve& a, const Curve& b) {
   return !Crossings(a, b).empty() || EndsOn(a, b) || EndsOn(b, a);
 }
 
-tl::expected<void, Error> CheckApart(const std::vector<Curve>& outlines) {
-  std::vector<Box> boxes;
-  for (const Curve& outline : outlines) boxes.push_back(BoundingBox(outline));
-  for (std::size_t i = 0; i < outlines.size(); ++i) {
-    for (std::size_t j = 0; j < i; ++j) {
-      if (Touch(outlines[j], boxes[j], outlines[i], boxes[i])) {
-        return Refuse(ErrorCode::kDegenerate, "two outlines cross or touch one another", i);
-      }
+bool Meet(const Box& a, const Box& b) {
+  return ((a.min - b.max).array() <= kMeeting_m).all() &&
+         ((b.min - a.max).array() <= kMeeting_m).all();
+}
+
+// The outlines whose boxes meet, as pairs of indices, the lower one first.
+std::vector<std::pair<std::size_t, std::size_t>> MeetingPairs(const std::vector<Box>& boxes) {
+  Box all;
+  for (const Box& box : boxes) all.Add(box);
+  int axis = 0;
+  (all.max - all.min).maxCoeff(&axis);
+  std::vector<std::size_t> order(boxes.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) {
+    return boxes[i].min[axis] < boxes[j].min[axis];
+  });
+  std::vector<std::pair<std::size_t, std::size_t>> pairs;
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    const Box& box = boxes[order[k]];
+    for (std::size_t next = k + 1; next < order.size(); ++next) {
+      const Box& other = boxes[order[next]];
+      if (other.min[axis] > box.max[axis] + kMeeting_m) break;
+      if (Meet(box, other)) pairs.push_back(std::minmax(order[k], order[next]));
     }
   }
-  return {};
+  std::sort(pairs.begin(), pairs.end());
+  return pairs;
 }
 
 // Whether the outline is free of self-crossings is seen from its facets.
@@ -78,11 +91,12 @@ Result<Frame> CheckOutlines(const std::vector<Curve>& outlines) {
     if (!area) return tl::unexpected(Error{area.error().code, area.error().detail, int(i)});
     const Box box = BoundingBox(outlines[i]);
     const double size = (box.max - box.min).norm();
-    if (!(*area > 1e-12 * size * size)) {
+    const std::optional<Frame> own = PlaneOf(outlines[i]);  // none for what is all but a point
+    if (!own || !(*area > 1e-12 * size * size)) {
       return Refuse(ErrorCode::kDegenerate, "an outline encloses nothing", i);
     }
     if (i == 0) {
-      plane = *PlaneOf(outlines[0]);
+      plane = *own;
     } else if (!LiesIn(outlines[i], plane)) {
       return Refuse(ErrorCode::kNotPlanar, "the outlines do not lie in one plane", i);
     }
@@ -91,6 +105,23 @@ Result<Frame> CheckOutlines(const std::vector<Curve>& outlines) {
     }
   }
   return plane;
+}
+
+// For each outline those that surround it; an error if two touch. As they do not, one lies in
+// another if one of its points does.
+Result<std::vector<std::vector<std::size_t>>> NestingOf(const std::vector<Curve>& outlines,
+                                                        const Frame& plane) {
+  std::vector<Box> boxes;
+  for (const Curve& outline : outlines) boxes.push_back(BoundingBox(outline));
+  std::vector<std::vector<std::size_t>> around(outlines.size());
+  for (const auto& [i, j] : MeetingPairs(boxes)) {
+    if (Touch(outlines[i], outlines[j])) {
+      return Refuse(ErrorCode::kDegenerate, "two outlines cross or touch one another", j);
+    }
+    if (WindingNumber(outlines[j], plane, PointAt(outlines[i], 0)) != 0) around[i].push_back(j);
+    if (WindingNumber(outlines[i], plane, PointAt(outlines[j], 0)) != 0) around[j].push_back(i);
+  }
+  return around;
 }
 
 Curve Directed(const Curve& outline, const Frame& plane, bool counter_clockwise) {
@@ -141,16 +172,10 @@ Result<Region> RegionOf(const std::vector<Curve>& outlines) {
   }
   const Result<Frame> plane = CheckOutlines(outlines);
   if (!plane) return tl::unexpected(plane.error());
-  if (auto apart = CheckApart(outlines); !apart) return tl::unexpected(apart.error());
-  // Outlines do not meet, so that one lies in another if one of its points does.
+  const auto nesting = NestingOf(outlines, *plane);
+  if (!nesting) return tl::unexpected(nesting.error());
+  const std::vector<std::vector<std::size_t>>& around = *nesting;
   const std::size_t count = outlines.size();
-  std::vector<std::vector<std::size_t>> around(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    const Vec3 p = PointAt(outlines[i], 0);
-    for (std::size_t j = 0; j < count; ++j) {
-      if (j != i && WindingNumber(outlines[j], *plane, p) != 0) around[i].push_back(j);
-    }
-  }
   Region region{*plane, {}};
   std::vector<std::size_t> part_of(count);
   for (std::size_t i = 0; i < count; ++i) {

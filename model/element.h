@@ -138,7 +138,6 @@ using PhotographPtr = std::shared_ptr<const Photograph>;
 using TracePtr = std::shared_ptr<const Trace>;
 using Geometry = std::variant<Point, CurvePtr, SurfacePtr, RegionPtr, SolidPtr, TextPtr, GroupPtr,
                               InstancePtr, PhotographPtr, TracePtr>;
-PhotographPtr, TracePtr > ;
 
 struct Element {
   ElementId id = kNoElement;

@@ -110,14 +110,12 @@ CommandResult CombineRegions(const State& state, const Answers& answers,
     if (!region) return Fail(region.error());
     of.push_back(*std::move(region));
   }
-  std::vector<ElementPtr> cutters;
-  if (const model::Value* value = answers.Find("by")) {
-    for (const model::Value& item : value->list()) {
-      auto region = AsRegion(*item.element(), AtKey("by"));
-      if (!region) return Fail(region.error());
-      by.push_back(*std::move(region));
-      cutters.push_back(item.element());
-    }
+  const auto cutters = ListedBy(state, answers, "by");
+  if (!cutters) return Fail(cutters.error());
+  for (const ElementPtr& cutter : *cutters) {
+    auto region = AsRegion(*cutter, AtKey("by"));
+    if (!region) return Fail(region.error());
+    by.push_back(*std::move(region));
   }
   auto combined = geom::Combine(of, by, operation, state.drawing.settings->tolerance);
   if (!combined) {
@@ -130,7 +128,7 @@ CommandResult CombineRegions(const State& state, const Answers& answers,
   auto fired =
       MakeFromChosen(state, answers, {std::make_shared<const geom::Region>(*std::move(combined))});
   if (fired && !answers.Flag("keep")) {
-    for (const ElementPtr& cutter : cutters) fired->edit.consumed.push_back(cutter->id);
+    for (const ElementPtr& cutter : *cutters) fired->edit.consumed.push_back(cutter->id);
   }
   return fired;
 }

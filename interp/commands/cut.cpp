@@ -42,9 +42,10 @@ tl::expected<Meant, CommandError> MeantBy(const State& state, const Answers& ans
                                           std::string_view verb) {
   ElementPtr element;
   Where where = AtPoint(0);
-  if (const model::Value* of = answers.Find("of")) {
-    element = of->element();
-    if (element->id < state.model.entries.size()) element = state.model.Current(element->id);
+  if (answers.Has("of")) {
+    const auto listed = ListedBy(state, answers, "of");
+    if (!listed) return Fail(listed.error());
+    element = listed->front();
     where = AtKey("of");
   } else {
     const PickResult pick = Pick(state, answers.points[0]);
@@ -63,18 +64,20 @@ tl::expected<Meant, CommandError> MeantBy(const State& state, const Answers& ans
 }
 
 // The curves that a key lists; those of groups and placed elements, too.
-tl::expected<std::vector<Curve>, CommandError> CurvesBy(const Answers& answers,
+tl::expected<std::vector<Curve>, CommandError> CurvesBy(const State& state, const Answers& answers,
                                                         std::string_view key,
                                                         std::string_view verb) {
+  const auto listed = ListedBy(state, answers, key);
+  if (!listed) return Fail(listed.error());
   std::vector<Curve> curves;
-  for (const model::Value& item : answers.Find(key)->list()) {
+  for (const ElementPtr& element : *listed) {
     const std::size_t before = curves.size();
-    model::ForEachLeaf(*item.element(), [&](const Element& leaf, const geom::Affine& world,
-                                            const model::Attributes&) {
-      const auto* curve = std::get_if<model::CurvePtr>(&leaf.geometry);
-      if (curve) curves.push_back(geom::Transformed(**curve, world));
-    });
-    if (curves.size() == before) return Fail(NoCurve(*item.element(), verb, AtKey(key)));
+    model::ForEachLeaf(
+        *element, [&](const Element& leaf, const geom::Affine& world, const model::Attributes&) {
+          const auto* curve = std::get_if<model::CurvePtr>(&leaf.geometry);
+          if (curve) curves.push_back(geom::Transformed(**curve, world));
+        });
+    if (curves.size() == before) return Fail(NoCurve(*element, verb, AtKey(key)));
   }
   return curves;
 }
@@ -125,7 +128,7 @@ CommandResult Trim(const State& state, const Answers& answers) {
   if (auto error = TooFar(answers)) return Fail(*error);
   const auto meant = MeantBy(state, answers, "trim");
   if (!meant) return Fail(meant.error());
-  const auto cutters = CurvesBy(answers, "by", "trim");
+  const auto cutters = CurvesBy(state, answers, "by", "trim");
   if (!cutters) return Fail(cutters.error());
   const std::vector<double> cuts = CutsBy(meant->curve(), *cutters);
   const double t = geom::NearestPoint(meant->curve(), answers.points[0]).t;
@@ -163,7 +166,7 @@ CommandResult Extend(const State& state, const Answers& answers) {
   const geom::CurveEnd end = at_start ? geom::CurveEnd::kStart : geom::CurveEnd::kEnd;
   geom::Result<Curve> longer = curve;
   if (to) {
-    const auto others = CurvesBy(answers, "to", "extend");
+    const auto others = CurvesBy(state, answers, "to", "extend");
     if (!others) return Fail(others.error());
     longer = geom::LengthenedTo(curve, end, *others);
   } else {
@@ -217,7 +220,7 @@ std::optional<CommandError> BadDivision(const Answers& answers) {
   return std::nullopt;
 }
 
-CommandResult Divide(const State&, const Answers& answers) {
+CommandResult Divide(const State& state, const Answers& answers) {
   if (auto error = BadDivision(answers)) return Fail(*error);
   if (auto error = TooFar(answers)) return Fail(*error);
   if (auto error = NothingChosen(answers)) return Fail(*error);
@@ -225,7 +228,7 @@ CommandResult Divide(const State&, const Answers& answers) {
   if (!curves) return Fail(curves.error());
   std::vector<Curve> others;
   if (answers.Has("by")) {
-    auto found = CurvesBy(answers, "by", "divide");
+    auto found = CurvesBy(state, answers, "by", "divide");
     if (!found) return Fail(found.error());
     others = *std::move(found);
   }

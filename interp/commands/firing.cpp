@@ -70,6 +70,30 @@ std::optional<CommandError> TooFar(const Answers& answers) {
   return std::nullopt;
 }
 
+tl::expected<std::vector<ElementPtr>, CommandError> ListedBy(const State& state,
+                                                             const Answers& answers,
+                                                             std::string_view key) {
+  std::vector<ElementPtr> listed;
+  const Value* value = answers.Find(key);
+  if (!value) return listed;
+  const std::vector<Value> items = value->is_list() ? value->list() : std::vector<Value>{*value};
+  for (const Value& item : items) {
+    ElementPtr element = item.element();
+    // What lies beyond the entries is a part of a placed element, and cannot have changed.
+    if (element->id < state.model.entries.size()) {
+      const std::string name = NameForMessage(*element);
+      element = state.model.Current(element->id);
+      if (!element) {
+        return Fail({.code = Code::kNoLongerThere,
+                     .message = fmt::format("{} was deleted", name),
+                     .where = AtKey(key)});
+      }
+    }
+    listed.push_back(std::move(element));
+  }
+  return listed;
+}
+
 geom::Frame PlaneAt(const State& state, const geom::Vec3& origin) {
   const geom::Frame& plane = state.drawing.settings->plane;
   return {origin, plane.x, plane.y};

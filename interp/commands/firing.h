@@ -36,6 +36,10 @@ std::optional<CommandError> NothingChosen(const Answers& answers);
 
 // As NothingChosen; photographs and traces, which have no place in space, are refused, too.
 std::optional<CommandError> NothingToMove(const Answers& answers);
+// The elements that a key lists, as they now are; E0407 at the key if one was deleted.
+tl::expected<std::vector<model::ElementPtr>, CommandError> ListedBy(const model::State& state,
+                                                                    const Answers& answers,
+                                                                    std::string_view key);
 
 // The active plane, moved to this origin.
 geom::Frame PlaneAt(const model::State& state, const geom::Vec3& origin);

@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "geom/crossing.h"
 #include "interp/commands/families.h"
 #include "interp/commands/firing.h"
 #include "interp/commands/range.h"
@@ -16,6 +17,9 @@ using geom::Vec3;
 using model::State;
 
 namespace {
+
+// Of curves of more pieces, trying how far they could be offset would take long.
+constexpr std::size_t kMostTried = 100;
 
 // The normal of the plane in which the parallel lies: the curve's own; a straight one's is the
 // active plane if it lies along that, or else the plane through the data point.
@@ -70,10 +74,12 @@ tl::expected<std::vector<geom::Curve>, CommandError> ParallelsOf(const State& st
   auto parallels = at(distance_m);
   if (!parallels) return Fail(FromGeom(parallels.error(), "a parallel", AtChosen(index)));
   if (!parallels->empty()) return *std::move(parallels);
-  const double largest_m = LargestThatWorks(distance_m, [&](double d) {
+  const auto works = [&](double d) {
     const auto tried = at(d);
     return tried && !tried->empty();
-  });
+  };
+  const bool quick = geom::CountPieces(curve) <= kMostTried;
+  const double largest_m = quick ? LargestThatWorks(distance_m, works) : 0;
   return Fail({.code = Code::kOutOfRange,
                .message = fmt::format("nothing is left of the {} at a distance of {}",
                                       model::TypeOf(*answers.chosen[index]),

@@ -66,6 +66,8 @@ TEST(CurveThrough, NamesAPointThatRepeatsTheOneBefore) {
   EXPECT_EQ(open.error().part, 2);
   EXPECT_FALSE(CurveThrough({{0, 0, 0}, {1, 0, 0}}, true).has_value());
   EXPECT_FALSE(CurveThrough({{0, 0, 0}}, false).has_value());
+  // So unevenly spaced that their parameters coincide.
+  EXPECT_FALSE(CurveThrough({{0, 0, 0}, {1e9, 0, 0}, {1e9, 1e-8, 0}}, false).has_value());
 }
 
 TEST(CurveByPoles, StartsAndEndsAtPolesOrClosesSmoothly) {

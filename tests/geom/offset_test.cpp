@@ -97,6 +97,17 @@ TEST(Offset, CutsSharpTipsOff) {
   EXPECT_GT(box.max.x(), 10 + 3.9);
 }
 
+TEST(Offset, OfManyPiecesThatAllMeet) {
+  Polyline round{{}, true};
+  for (int i = 0; i < 600; ++i) {
+    const double angle = 2 * kPi * i / 600;
+    round.vertices.push_back({5 * std::cos(angle), 5 * std::sin(angle), 0});
+  }
+  const auto inside = MustOffset(round, 4.9);
+  ASSERT_EQ(inside.size(), 1u);
+  EXPECT_NEAR(AreaOf(inside), kPi * 0.01, 1e-4);
+}
+
 TEST(Offset, RefusesWhatHasNone) {
   EXPECT_EQ(Offset(ToBspline(Circle{Frame{}, 1}), kUp, 1, OffsetJoin::kMitred).error().code,
             ErrorCode::kOutOfRange);

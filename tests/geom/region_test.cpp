@@ -83,6 +83,7 @@ TEST(RegionOf, NamesTheOutlineAtFault) {
   Frame above;
   above.origin = {1, 1, 1};
   EXPECT_EQ(fault({Square(0, 4), Circle{above, 0.5}}), Fault(ErrorCode::kNotPlanar, 1));
+  EXPECT_EQ(fault({Square(0, 4), Round(1, 1, 1e-12)}), Fault(ErrorCode::kDegenerate, 1));
   EXPECT_EQ(fault({}), Fault(ErrorCode::kDegenerate, -1));
 }
 
@@ -91,6 +92,19 @@ TEST(RegionOf, TellsApartWhatChordsWouldCross) {
   const Region region = MustRegion({Round(0, 0, 10), Round(4.9999, 0, 5)});
   EXPECT_NEAR(Area(region), kPi * 75, 1e-9);
   EXPECT_NEAR(FacetArea(region, {1e-2}), kPi * 75, 1);
+}
+
+TEST(RegionOf, TakesManyOutlinesAndLiesFarOut) {
+  std::vector<Curve> outlines;
+  for (int i = 0; i < 40; ++i) {
+    for (int j = 0; j < 40; ++j) outlines.push_back(Round(1e6 + i, j, 0.3));
+  }
+  outlines.push_back(Rectangle(1e6 - 1, -1, 1e6 + 40, 40));
+  const Region region = MustRegion(outlines);
+  ASSERT_EQ(region.parts.size(), 1u);
+  EXPECT_EQ(region.parts[0].holes.size(), 1600u);
+  EXPECT_NEAR(Area(region), 41 * 41 - 1600 * 0.09 * kPi, 1e-6);
+  EXPECT_NEAR(FacetArea(region, kFine), Area(region), 1);
 }
 
 TEST(Region, MeasuresAsItsParts) {
