@@ -99,7 +99,7 @@ void Add(Hasher& hasher, const Point& point) { hasher.Tag(kPoint).Point(point.po
 void Add(Hasher& hasher, const CurvePtr& curve) {
   std::visit([&](const auto& shape) { Add(hasher, shape); }, *curve);
 }
-Hash128 HashOf(const geom::Curve& curve) {
+Hash128 HashOfOutline(const geom::Curve& curve) {
   Hasher hasher;
   std::visit([&](const auto& shape) { Add(hasher, shape); }, curve);
   return hasher.Finish();
@@ -113,9 +113,9 @@ void Add(Hasher& hasher, const RegionPtr& region) {
   Hash128 parts;
   for (const geom::Region::Part& part : region->parts) {
     Hash128 holes;
-    for (const geom::Curve& hole : part.holes) holes = holes + HashOf(hole);
+    for (const geom::Curve& hole : part.holes) holes = holes + HashOfOutline(hole);
     Hasher one;
-    one.Tag(kRegionPart).Hash(HashOf(part.outer)).Hash(holes);
+    one.Tag(kRegionPart).Hash(HashOfOutline(part.outer)).Hash(holes);
     AddCount(one, part.holes.size());
     parts = parts + one.Finish();
   }
