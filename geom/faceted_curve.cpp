@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "geom/curve_pieces.h"
+#include "geom/facet_count.h"
 
 namespace tranos::geom {
 namespace {
@@ -17,11 +18,16 @@ class Faceter {
 
   template <class Piece>
   void Add(const Piece& piece) {
-    if constexpr (std::is_same_v<Piece, BsplineCurve>) {
+    if constexpr (std::is_same_v<Piece, Arc>) {
+      const double count = FullTurnFacets(piece.radius, tolerance_);
+      const bool by_count = piece.sweep_rad >= 2 * kPi && count <= double{kMaxFacetPoints};
+      AddSmooth(piece,
+                by_count ? Tolerance{tolerance_.chord_m, static_cast<int>(count)} : tolerance_);
+    } else if constexpr (std::is_same_v<Piece, BsplineCurve>) {
       // Between spans even a smooth-looking B-spline may have a corner.
-      for (const BezierSpan& span : BezierSpansOf(piece)) AddSmooth(JoinSpans({span}));
+      for (const BezierSpan& span : BezierSpansOf(piece)) AddSmooth(JoinSpans({span}), tolerance_);
     } else {
-      AddSmooth(piece);
+      AddSmooth(piece, tolerance_);
     }
   }
 
@@ -47,9 +53,9 @@ class Faceter {
   }
 
   template <class Piece>
-  void AddSmooth(const Piece& piece) {
+  void AddSmooth(const Piece& piece, const Tolerance& tolerance) {
     if (error_) return;
-    Result<std::vector<Vec3>> points = Tessellate(Curve(piece), tolerance_);
+    Result<std::vector<Vec3>> points = Tessellate(Curve(piece), tolerance);
     if (!points) {
       error_ = points.error();
       return;
@@ -77,6 +83,11 @@ class Faceter {
 };
 
 }  // namespace
+
+double FullTurnFacets(double radius_m, const Tolerance& tolerance) {
+  const double count = ArcFacets(radius_m, 2 * kPi, tolerance);
+  return tolerance.facets_per_turn > 0 ? count : 4 * std::ceil(count / 4);
+}
 
 bool FacetCorner::IsSmooth() const { return in.dot(out) > 0 && in.cross(out).norm() < kSmooth_rad; }
 

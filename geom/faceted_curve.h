@@ -19,8 +19,12 @@ struct FacetedCurve {
   bool closed = false;
   std::size_t FacetCount() const { return closed ? corners.size() : corners.size() - 1; }
 };
-// kDegenerate for a curve of no length; kTooLarge as Tessellate.
+// Where facets go by the chord tolerance, a full circle has a multiple of four, so that it reaches
+// as far as it should. kDegenerate for a curve of no length; kTooLarge as Tessellate.
 Result<FacetedCurve> FacetsOf(const Curve&, const Tolerance&);
+
+// The facets of a full turn by this tolerance; may be far above any cap.
+double FullTurnFacets(double radius_m, const Tolerance&);
 
 // The number of the smooth run that each facet is of: facets on either side of a smooth corner are
 // of one run. Numbers count from zero.

@@ -46,6 +46,8 @@ void AddSides(const std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint3
 
 }  // namespace
 
+bool IsRound(const Outline& outline) { return outline.sides.size() > outline.surface_count; }
+
 Result<Outline> OutlineOf(const std::vector<Curve>& loops, const Tolerance& tolerance) {
   Outline outline;
   std::vector<std::vector<Vec2>> flat;

@@ -23,6 +23,11 @@ struct Outline {
   std::uint32_t surface_count = 0;
 };
 
+// What is round in the outline and round in the way it is carried deviates twice: each by half the
+// chord tolerance, then.
+bool IsRound(const Outline&);
+inline Tolerance Halved(const Tolerance& t) { return {0.5 * t.chord_m, t.facets_per_turn}; }
+
 // A point of the outlines may lie this far off the plane of the first.
 inline constexpr double kOffPlane_m = 1e-6;
 

@@ -30,7 +30,7 @@ class Loop {
   bool IsSmoothAt(std::size_t i) const { return smooth_[i]; }
   Vec3 Middle() const {
     Vec3 sum = Vec3::Zero();
-    for (int i = 0; i < kSamples; ++i) sum += At(double{1} * i / kSamples);
+    for (int i = 0; i < kSamples; ++i) sum += At(i / double{kSamples});
     return sum / kSamples;
   }
   // Twice the vector area: along the normal about which the loop runs anticlockwise.
@@ -46,8 +46,10 @@ class Loop {
     const auto next = std::upper_bound(shares_.begin(), shares_.end(), wrapped);
     const auto i = static_cast<std::size_t>(next - shares_.begin()) - 1;
     const double end = next == shares_.end() ? 1 : *next;
-    const double part = end > shares_[i] ? (wrapped - shares_[i]) / (end - shares_[i]) : 0;
-    if (part == 0) return points_[i];
+    // A corner itself, where rounding alone tells them apart.
+    if (wrapped - shares_[i] <= kSameShare) return points_[i];
+    if (end - wrapped <= kSameShare) return points_[(i + 1) % size()];
+    const double part = (wrapped - shares_[i]) / (end - shares_[i]);
     return points_[i] + part * (points_[(i + 1) % size()] - points_[i]);
   }
   void Reverse() {
@@ -55,25 +57,37 @@ class Loop {
     std::reverse(smooth_.begin() + 1, smooth_.end());
     Measure();
   }
-  void StartAt(std::size_t i) {
-    const auto by = static_cast<std::ptrdiff_t>(i);
-    std::rotate(points_.begin(), points_.begin() + by, points_.end());
-    std::rotate(smooth_.begin(), smooth_.begin() + by, smooth_.end());
-    Measure();
+  // Begins at this share, where a corner is put if there is none.
+  void StartAt(double share) {
+    std::vector<double> shares = {0};
+    for (const double own : shares_) {
+      const double from_start = own - share - std::floor(own - share);
+      if (from_start > kSameShare && from_start < 1 - kSameShare) shares.push_back(from_start);
+    }
+    std::sort(shares.begin(), shares.end());
+    std::vector<double> own = shares;
+    for (double& s : own) s = s + share - std::floor(s + share);
+    Resample(own);
+    shares_ = std::move(shares);
   }
-  // The corner to start from for lying nearest to `other`, each seen from its middle.
-  std::size_t StartNearest(const Loop& other) const {
+  // Where to begin for lying nearest to `other`, each seen from its middle: at a corner, or on a
+  // smooth curve, which has none, anywhere.
+  double StartNearest(const Loop& other, bool at_points) const {
+    const bool smooth = std::find(smooth_.begin(), smooth_.end(), false) == smooth_.end();
+    std::vector<double> candidates = shares_;
+    if (smooth && !at_points) {
+      for (int i = 0; i < kSamples; ++i) candidates.push_back(i / double{kSamples});
+    }
     const Vec3 shift = Middle() - other.Middle();
-    std::size_t best = 0;
-    double least = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i < size(); ++i) {
+    double best = 0, least = std::numeric_limits<double>::infinity();
+    for (const double start : candidates) {
       double sum = 0;
       for (int k = 0; k < kSamples; ++k) {
-        const double share = double{1} * k / kSamples;
-        sum += (At(shares_[i] + share) - shift - other.At(share)).squaredNorm();
+        const double share = k / double{kSamples};
+        sum += (At(start + share) - shift - other.At(share)).squaredNorm();
       }
       // A start within rounding of an earlier one is no better.
-      if (sum < least * (1 - 1e-9) - 1e-18) least = sum, best = i;
+      if (sum < least * (1 - 1e-9) - 1e-18) least = sum, best = start;
     }
     return best;
   }
@@ -84,7 +98,8 @@ class Loop {
     for (const double share : shares) {
       points.push_back(At(share));
       const auto same = std::find_if(shares_.begin(), shares_.end(), [&](double own) {
-        return std::abs(own - share) <= kSameShare;
+        const double apart = own - share;
+        return std::abs(apart - std::round(apart)) <= kSameShare;
       });
       smooth.push_back(same == shares_.end() ||
                        smooth_[static_cast<std::size_t>(same - shares_.begin())]);
@@ -172,12 +187,13 @@ Outline FirstOutline(const std::vector<Loop>& loops, Triangles cap) {
 Result<TriangleMesh> LoftMesh(const std::vector<Curve>& outlines, const Tolerance& tolerance) {
   Result<std::vector<Loop>> loops = LoopsOf(outlines, tolerance);
   if (!loops) return tl::unexpected(loops.error());
-  bool same_counts = true;
+  const bool same_counts = std::all_of(loops->begin(), loops->end(), [&](const Loop& loop) {
+    return loop.size() == loops->front().size();
+  });
   for (std::size_t i = 1; i < loops->size(); ++i) {
     Loop &loop = (*loops)[i], &before = (*loops)[i - 1];
     if (loop.DoubledArea().dot(before.DoubledArea()) < 0) loop.Reverse();
-    loop.StartAt(loop.StartNearest(before));
-    same_counts = same_counts && loop.size() == before.size();
+    loop.StartAt(loop.StartNearest(before, same_counts));
   }
   if (!same_counts) {
     const std::vector<double> shares = UnitedShares(*loops);

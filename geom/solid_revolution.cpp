@@ -3,6 +3,7 @@
 
 #include "geom/arc.h"
 #include "geom/facet_count.h"
+#include "geom/faceted_curve.h"
 #include "geom/skin.h"
 #include "geom/swept_solid.h"
 
@@ -57,7 +58,7 @@ std::vector<Vec3> Turned(const AboutAxis& about, double angle_rad) {
 
 Result<TriangleMesh> RevolutionMesh(const std::vector<Curve>& outline, const Vec3& axis_point,
                                     const Vec3& axis_direction, double angle_rad,
-                                    const Tolerance& tolerance) {
+                                    const Tolerance& given) {
   if (!(axis_direction.norm() > 0) || !axis_direction.allFinite()) {
     return tl::unexpected(Error{ErrorCode::kDegenerate, "the axis has no direction"});
   }
@@ -65,13 +66,17 @@ Result<TriangleMesh> RevolutionMesh(const std::vector<Curve>& outline, const Vec
     return tl::unexpected(
         Error{ErrorCode::kOutOfRange, "the angle is not between zero and a full turn"});
   }
-  const Result<Outline> face = OutlineOf(outline, tolerance);
+  Result<Outline> face = OutlineOf(outline, given);
+  const bool round = face && IsRound(*face);
+  const Tolerance tolerance = round ? Halved(given) : given;
+  if (round) face = OutlineOf(outline, tolerance);
   if (!face) return tl::unexpected(face.error());
   const auto about = PlaceAboutAxis(*face, axis_point, axis_direction.normalized());
   if (!about) return tl::unexpected(about.error());
   const bool full = angle_rad >= 2 * kPi * (1 - 1e-12);
   const double sweep_rad = full ? 2 * kPi : angle_rad;
-  const double count = ArcFacets(about->largest_radius_m, sweep_rad, tolerance);
+  const double count = full ? FullTurnFacets(about->largest_radius_m, tolerance)
+                            : ArcFacets(about->largest_radius_m, sweep_rad, tolerance);
   if (!(count * static_cast<double>(face->points.size()) < static_cast<double>(kMaxFacetPoints))) {
     return tl::unexpected(
         Error{ErrorCode::kTooLarge, "the tolerance asks for more than ten million points"});

@@ -125,44 +125,55 @@ class Sweeper {
   double twist_rad_per_m_ = 0;
 };
 
-Result<FacetedCurve> PathOf(const Curve& path, const Tolerance& tolerance) {
-  Result<FacetedCurve> facets = FacetsOf(path, tolerance);
-  if (!facets)
-    return tl::unexpected(Error{facets.error().code, "of the path, " + facets.error().detail});
-  return facets;
+struct Faceted {
+  FacetedCurve path;
+  Outline outline;
+};
+Result<Faceted> FacetedOf(const std::vector<Curve>& outline, const Curve& path,
+                          const Tolerance& tolerance) {
+  Result<FacetedCurve> along = FacetsOf(path, tolerance);
+  if (!along) {
+    return tl::unexpected(Error{along.error().code, "of the path, " + along.error().detail});
+  }
+  Result<Outline> face = OutlineOf(outline, tolerance);
+  if (!face) return tl::unexpected(face.error());
+  return Faceted{*std::move(along), *std::move(face)};
+}
+Result<Faceted> PrepareSweep(const std::vector<Curve>& outline, const Curve& path,
+                             const Tolerance& tolerance) {
+  Result<Faceted> faceted = FacetedOf(outline, path, tolerance);
+  if (!faceted || !IsRound(faceted->outline)) return faceted;
+  return FacetedOf(outline, path, Halved(tolerance));
 }
 
 }  // namespace
 
 Result<TriangleMesh> SweepMesh(const std::vector<Curve>& outline_at_origin, const Curve& path,
                                const Vec3& up, const Tolerance& tolerance) {
-  const Result<FacetedCurve> facets = PathOf(path, tolerance);
-  if (!facets) return tl::unexpected(facets.error());
-  const Result<Outline> outline = OutlineOf(outline_at_origin, tolerance);
-  if (!outline) return tl::unexpected(outline.error());
-  const Vec3 along = facets->corners[0].out;
+  const Result<Faceted> faceted = PrepareSweep(outline_at_origin, path, tolerance);
+  if (!faceted) return tl::unexpected(faceted.error());
+  const Vec3 along = faceted->path.corners[0].out;
   const Vec3 right = along.cross(up).normalized();
   if (!right.allFinite() || !(along.cross(up).norm() > 1e-9)) {
     return tl::unexpected(Error{ErrorCode::kDegenerate, "the path starts straight upward"});
   }
   std::vector<Vec2> points;
-  for (const Vec3& p : outline->points) points.emplace_back(p.head<2>());
-  return Sweeper(*facets, *outline, std::move(points)).Sweep({right, right.cross(along)});
+  for (const Vec3& p : faceted->outline.points) points.emplace_back(p.head<2>());
+  return Sweeper(faceted->path, faceted->outline, std::move(points))
+      .Sweep({right, right.cross(along)});
 }
 
 Result<TriangleMesh> SweepMeshInPlace(const std::vector<Curve>& outline, const Curve& path,
                                       const Tolerance& tolerance) {
-  const Result<FacetedCurve> facets = PathOf(path, tolerance);
-  if (!facets) return tl::unexpected(facets.error());
-  const Result<Outline> face = OutlineOf(outline, tolerance);
-  if (!face) return tl::unexpected(face.error());
-  const Frame& plane = face->plane;
+  const Result<Faceted> faceted = PrepareSweep(outline, path, tolerance);
+  if (!faceted) return tl::unexpected(faceted.error());
+  const Frame& plane = faceted->outline.plane;
   std::vector<Vec2> points;
-  for (const Vec3& p : face->points) {
-    const Vec3 d = p - facets->corners[0].point;
+  for (const Vec3& p : faceted->outline.points) {
+    const Vec3 d = p - faceted->path.corners[0].point;
     points.emplace_back(d.dot(plane.x), d.dot(plane.y));
   }
-  return Sweeper(*facets, *face, std::move(points)).Sweep({plane.x, plane.y});
+  return Sweeper(faceted->path, faceted->outline, std::move(points)).Sweep({plane.x, plane.y});
 }
 
 bool StandsAtStart(const Curve& outline, const Curve& path) {

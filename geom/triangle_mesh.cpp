@@ -241,24 +241,25 @@ class FacetMaker {
   }
 
  private:
-  // Corners at one position on one surface: a vertex for each set of facets that are smooth with
-  // its first.
+  // Corners at one position on one surface. Each has the mean normal of the facets that are smooth
+  // with its own, so that round a cone's tip they differ; those with the same share a vertex.
   void AddVertices(const Corner* begin, const Corner* end) {
-    std::vector<bool> done(static_cast<std::size_t>(end - begin));
-    for (const Corner* first = begin; first != end; ++first) {
-      if (done[static_cast<std::size_t>(first - begin)]) continue;
-      const auto vertex = static_cast<std::uint32_t>(facets_.positions.size());
-      Vec3 normal = Vec3::Zero();
-      for (const Corner* corner = first; corner != end; ++corner) {
-        const auto index = static_cast<std::size_t>(corner - begin);
-        if (done[index] || !AreSmooth(first->triangle, corner->triangle)) continue;
-        done[index] = true;
-        normal += AngleAt(mesh_, *corner) * unit_normals_[corner->triangle];
-        facets_.triangles[corner->triangle][corner->index] = vertex;
+    const std::size_t first_vertex = facets_.positions.size();
+    for (const Corner* corner = begin; corner != end; ++corner) {
+      Vec3 sum = Vec3::Zero();
+      for (const Corner* other = begin; other != end; ++other) {
+        if (!AreSmooth(corner->triangle, other->triangle)) continue;
+        sum += AngleAt(mesh_, *other) * unit_normals_[other->triangle];
       }
-      const double length = normal.norm();
-      facets_.positions.push_back(mesh_.positions[first->position]);
-      facets_.normals.push_back(length > 0 ? Vec3(normal / length) : Vec3::UnitZ());
+      const double length = sum.norm();
+      const Vec3 normal = length > 0 ? Vec3(sum / length) : Vec3::UnitZ();
+      std::size_t vertex = first_vertex;
+      while (vertex < facets_.positions.size() && facets_.normals[vertex] != normal) ++vertex;
+      if (vertex == facets_.positions.size()) {
+        facets_.positions.push_back(mesh_.positions[corner->position]);
+        facets_.normals.push_back(normal);
+      }
+      facets_.triangles[corner->triangle][corner->index] = static_cast<std::uint32_t>(vertex);
     }
   }
 

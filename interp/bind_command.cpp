@@ -377,11 +377,6 @@ void Binder::BindNaming(NodeId id) {
   const NodeId node = tree()[id].first_child;
   const std::string name = Text(node);
   if (!CheckName(name, SpanOf(node))) return;
-  if (in_definition_ && name == "void") {
-    return Error(Code::kNotYet, SpanOf(node),
-                 "a part named `void` is cut from a wall, which is not there yet",
-                 "part of the language, but not of this version");
-  }
   const auto interface = NamesScope()->interfaces.find(name);
   if (interface != NamesScope()->interfaces.end()) {
     return Error(Code::kBoundTwice, SpanOf(node), "`" + name + "` is an interface already",

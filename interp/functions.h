@@ -39,7 +39,7 @@ model::Value CallMember(const CallContext& context, const model::Value& value,
 // list[i], list[a..b]. Throws OpFailure.
 model::Value IndexInto(const model::Value& list, const model::Value& index);
 // The interface that a value stands for: a record of type "interface" with name, at, axis, dir,
-// plane and its measures. Throws OpFailure for any other value.
+// plane, the element that it is of, and its measures. Throws OpFailure for any other value.
 model::Interface InterfaceOf(const model::Value& value);
 // The element as it now stands in the model, for one that was named or chosen before it changed.
 model::ElementPtr CurrentElement(const model::State& state, const model::ElementPtr& element);

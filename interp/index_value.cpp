@@ -53,7 +53,7 @@ model::Interface InterfaceOf(const Value& value) {
       out.name = member.string();
     } else if (name == "plane") {
       out.frame = member.plane();
-    } else if (name != "at" && name != "axis" && name != "dir") {
+    } else if (name != "at" && name != "axis" && name != "dir" && name != "of") {
       out.measures.emplace_back(name, member);
     }
   }

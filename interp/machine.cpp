@@ -345,7 +345,9 @@ void Machine::PointEffect(const Instruction& i, const CodeUnit& unit, const Valu
   if (i.flags & kPackedPoint) {
     const Value& value = Get(i.b, r, unit.constants.data());
     if (kind != PointKey::kOn) return stage->Point(kind, value, span);
-    return stage->On(InterfaceOf(value), span);
+    const model::Interface interface = InterfaceOf(value);
+    const Value* host = value.record().Find("of");
+    return stage->On(interface, host ? host->element()->id : model::kNoElement, span);
   }
   const Unit& measure = program_.measures[i.n];
   if (i.c == 1) {

@@ -195,14 +195,18 @@ geom::Frame PlacedFrame(const geom::Frame& frame, const geom::Affine& world_from
   return {world_from_prototype * frame.origin, x, axis.cross(x)};
 }
 
-Value InterfaceValue(const model::Interface& interface, const geom::Affine& world_from_prototype) {
+// An interface of an element in the model, or of a part of one.
+Value InterfaceValue(const ElementPtr& element, const model::Interface& interface) {
+  const geom::Affine& world_from_prototype =
+      std::get<model::InstancePtr>(element->geometry)->world_from_prototype;
   const geom::Frame frame = PlacedFrame(interface.frame, world_from_prototype);
   model::Record record{"interface",
                        {{"name", Value::String(interface.name)},
                         {"at", Value::OfPoint(frame.origin)},
                         {"axis", Direction(frame.z())},
                         {"dir", Direction(frame.x)},
-                        {"plane", Value::Plane(frame)}}};
+                        {"plane", Value::Plane(frame)},
+                        {"of", Value::OfElement(element)}}};
   const std::optional<double> scale = ScaleOf(world_from_prototype);
   for (const auto& [name, measure] : interface.measures) {
     const bool scales =
@@ -225,8 +229,9 @@ const model::Interface* FindInterface(const model::Prototype& prototype, std::st
   return nullptr;
 }
 
-std::optional<Value> InstanceMember(const CallContext& context, const model::Instance& instance,
-                                    const model::Attributes& placement, std::string_view name) {
+std::optional<Value> InstanceMember(const CallContext& context, const ElementPtr& element,
+                                    std::string_view name) {
+  const model::Instance& instance = *std::get<model::InstancePtr>(element->geometry);
   const model::Prototype& prototype = *instance.prototype;
   for (const auto& [parameter, value] : prototype.parameters) {
     if (parameter == name) return value;
@@ -234,11 +239,11 @@ std::optional<Value> InstanceMember(const CallContext& context, const model::Ins
   for (const model::NamedElements& named : prototype.names) {
     if (named.name != name) continue;
     return NamedValue(context, named, [&](const ElementPtr& part) {
-      return PlacedPart(part, instance, placement);
+      return PlacedPart(part, instance, *element->attributes);
     });
   }
   if (const model::Interface* interface = FindInterface(prototype, name)) {
-    return InterfaceValue(*interface, instance.world_from_prototype);
+    return InterfaceValue(element, *interface);
   }
   return std::nullopt;
 }
@@ -277,8 +282,9 @@ std::optional<Value> TraceMember(const model::Trace& trace, std::string_view nam
 }
 
 // What only this kind of element has.
-std::optional<Value> OwnMember(const CallContext& context, const Element& element,
+std::optional<Value> OwnMember(const CallContext& context, const ElementPtr& named,
                                std::string_view name) {
+  const Element& element = *named;
   if (const auto* point = std::get_if<model::Point>(&element.geometry)) {
     return PlaceMember(point->position, name);
   }
@@ -300,8 +306,8 @@ std::optional<Value> OwnMember(const CallContext& context, const Element& elemen
   if (const auto* group = std::get_if<model::GroupPtr>(&element.geometry)) {
     return GroupMember(context, element, **group, name);
   }
-  if (const auto* instance = std::get_if<model::InstancePtr>(&element.geometry)) {
-    return InstanceMember(context, **instance, *element.attributes, name);
+  if (std::holds_alternative<model::InstancePtr>(element.geometry)) {
+    return InstanceMember(context, named, name);
   }
   return std::nullopt;
 }
@@ -349,12 +355,21 @@ void CheckCount(std::string_view usage, Arguments arguments, std::size_t count) 
                   std::string(usage)};
 }
 
-Value Face(const model::Instance& instance, Arguments arguments) {
-  CheckCount("face(name)", arguments, 1);
+// The face of this name, or the place on it that lies so far along and above its origin.
+Value Face(const CallContext& context, const ElementPtr& element, Arguments arguments) {
+  if (arguments.size() != 3) CheckCount("face(name)", arguments, 1);
   if (!arguments[0].is_string()) FailArgument(arguments, 0, "the name of a face");
-  const model::Prototype& prototype = *instance.prototype;
+  const model::Prototype& prototype = *std::get<model::InstancePtr>(element->geometry)->prototype;
   if (const model::Interface* face = FindInterface(prototype, arguments[0].string())) {
-    return InterfaceValue(*face, instance.world_from_prototype);
+    model::Interface place = *face;
+    if (arguments.size() == 3) {
+      const auto length_m = [&](std::size_t i, std::string_view name) {
+        return Convert(arguments[i], Type::kLength, *context.arithmetic.unit, name).number();
+      };
+      place.frame.origin =
+          place.frame.ToWorld({length_m(1, "the way along"), length_m(2, "the height"), 0});
+    }
+    return InterfaceValue(element, place);
   }
   std::vector<std::string> names;
   for (const model::Interface& interface : prototype.interfaces) names.push_back(interface.name);
@@ -365,7 +380,7 @@ Value Face(const model::Instance& instance, Arguments arguments) {
 
 Value ElementMember(const CallContext& context, const ElementPtr& named, std::string_view name) {
   const ElementPtr element = CurrentElement(*context.state, named);
-  if (std::optional<Value> own = OwnMember(context, *element, name)) return *std::move(own);
+  if (std::optional<Value> own = OwnMember(context, element, name)) return *std::move(own);
   for (const Row& row : kMeasures) {
     if (row.name != name) continue;
     if (row.measures_solids) context.evaluate(*element);
@@ -388,9 +403,8 @@ Value ElementMethod(const CallContext& context, const ElementPtr& named, std::st
     return name == "point" ? Value::OfPoint(geom::PointAt(*surface, u, v))
                            : Direction(geom::NormalAt(*surface, u, v));
   }
-  if (const auto* instance = std::get_if<model::InstancePtr>(&element->geometry);
-      instance && name == "face") {
-    return Face(**instance, arguments);
+  if (std::holds_alternative<model::InstancePtr>(element->geometry) && name == "face") {
+    return Face(context, element, arguments);
   }
   const Value member = ElementMember(context, element, name);
   throw OpFailure{Code::kWrongType,

@@ -3,6 +3,7 @@
 // times.
 #include <algorithm>
 #include <cmath>
+#include <unordered_set>
 
 #include "interp/machine.h"
 
@@ -190,13 +191,20 @@ model::PrototypePtr Machine::Build(const Definition& definition, Registers regis
     Execute(definition.unit, registers.data(), program_.units[definition.unit].body, &stage);
   }
   prototype.words = definition.words.substr(definition.words.find(' ') + 1);
-  stage.state().model.ForEach(
-      [&](const model::ElementPtr& part) { prototype.parts.push_back(part); });
-  if (prototype.parts.empty()) {
+  prototype.names = stage.NamesOf(definition.scope);
+  // What is named `void` is no part of what is built: it is taken out of the wall it is placed on.
+  std::unordered_set<model::ElementId> voids;
+  for (const model::NamedElements& named : prototype.names) {
+    if (named.name != "void") continue;
+    for (const model::ElementPtr& part : named.elements) voids.insert(part->id);
+  }
+  stage.state().model.ForEach([&](const model::ElementPtr& part) {
+    if (!voids.contains(part->id)) prototype.parts.push_back(part);
+  });
+  if (prototype.parts.empty() && voids.empty()) {
     Fail(Code::kNothingMade, span, "`" + definition.words + "` makes nothing", "", "",
          {{definition.span, "its body leaves no element in the model"}});
   }
-  prototype.names = stage.NamesOf(definition.scope);
   prototype.interfaces = std::move(interfaces);
   return model::MakePrototype(std::move(prototype));
 }

@@ -36,9 +36,11 @@ Diagnostic EmptySolid(const geom::Solid& solid, Span span) {
 
 void SolidLedger::Note(const std::vector<model::ElementPtr>& elements, Span statement) {
   for (const model::ElementPtr& element : elements) {
-    // The parts of an instance were noted where its definition's body made them.
     if (const auto* group = std::get_if<model::GroupPtr>(&element->geometry)) {
       Note((*group)->members, statement);
+    } else if (const auto* instance = std::get_if<model::InstancePtr>(&element->geometry)) {
+      // Those that a definition's body made are known; a wall's is made where it is placed.
+      Note((*instance)->prototype->parts, statement);
     } else if (const auto* solid = std::get_if<model::SolidPtr>(&element->geometry)) {
       made_.try_emplace(&(*solid)->node(), Made{*solid, statement});
     }

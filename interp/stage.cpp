@@ -89,6 +89,7 @@ void Stage::Start(const Command* row, const Definition* definition, Span span) {
   active_.firings = 0;
   active_.selected = false;
   active_.has_frame = false;
+  active_.host = model::kNoElement;
   active_.measures.clear();
   if (links_.options) Tell(std::string(row->words), span, nullptr, {});
 }
@@ -250,7 +251,7 @@ void Stage::Point(PointKey kind, const Value& values, Span span) {
   point_note_ = Slice::kNone;
 }
 
-void Stage::On(const model::Interface& interface, Span span) {
+void Stage::On(const model::Interface& interface, ElementId host, Span span) {
   if (!active_.row) Fail(Code::kNoCommand, span, "there is no active command to take this place");
   if (!active_.definition) {
     Fail(Code::kUnknownKey, span,
@@ -259,6 +260,7 @@ void Stage::On(const model::Interface& interface, Span span) {
   }
   active_.frame = interface.frame;
   active_.has_frame = true;
+  active_.host = host;
   active_.measures = interface.measures;
   if (links_.options) key_in_ = "on=" + interface.name;
   TakePoint(interface.frame.origin, span);

@@ -17,6 +17,7 @@
 #include "interp/run.h"
 #include "interp/slice.h"
 #include "interp/solid_ledger.h"
+#include "interp/wall_voids.h"
 #include "model/edit.h"
 
 namespace tranos::interp {
@@ -94,7 +95,8 @@ class Stage {
   // A data point other than `on=`: a list of lengths (of di=: a length and an angle), or one
   // length.
   void Point(PointKey kind, const model::Value& values, Span span);
-  void On(const model::Interface& interface, Span span);
+  // `host` is the element whose interface it is, or kNoElement.
+  void On(const model::Interface& interface, model::ElementId host, Span span);
   void Set(const SettingRow& row, const model::Value& value, Span span);
   void Reset(Span span);
   void EndStatement(Span span);
@@ -150,7 +152,8 @@ class Stage {
     bool selected = false;  // a firing has left something chosen: the next works on that
     std::vector<std::pair<std::string, model::Value>> measures = {};  // of `on=`
     bool has_frame = false;
-    geom::Frame frame;  // of `on=`
+    model::ElementId host = model::kNoElement;  // whose interface `on=` names
+    geom::Frame frame;                          // of `on=`
   };
   struct Block {
     model::SettingsPtr settings;
@@ -224,6 +227,7 @@ class Stage {
   std::size_t last_note_ = Slice::kNone;   // of the last point
   std::size_t ids_given_ = 0;  // an id is given once in a run, that of an undone element too
   std::vector<std::pair<std::string, std::size_t>> marks_;
+  WallVoids wall_voids_;
   std::unordered_map<model::ElementId, Span> trace_spans_;
   std::string key_in_;  // text of the key-in being carried out, when steps are told
 };

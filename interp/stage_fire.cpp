@@ -212,6 +212,7 @@ void Stage::Fire(Span span) {
   }
   Fired fired = Execute(row, answers, span);
   GuardChanges(&fired.edit);
+  wall_voids_.Follow(state_.model, &fired.edit);
   links_.solids->Note(fired.edit.added, active_.span);
   links_.solids->Note(fired.edit.replaced, active_.span);
   if (calibrated_ && row.informs) WarnTooLate(fired.edit);
@@ -277,6 +278,11 @@ void Stage::FirePlacement(Span span) {
   CheckNear(*edit.added.back(), span);
   links_.budget->ChargeElements(1, span);
   TakeIds();
+  if (active_.host != model::kNoElement) {
+    const auto id = static_cast<ElementId>(state_.model.entries.size());
+    wall_voids_.Place(state_.model, active_.host, id, *edit.added.back(), &edit);
+    links_.solids->Note(edit.replaced, active_.span);
+  }
   history_.push_back(state_);
   Commit(edit, span);
   AskAgain();

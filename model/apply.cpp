@@ -168,7 +168,12 @@ class Application {
       drawing.selection.Rehash(entries());
     }
     if (!made_or_changed_.empty()) {
-      drawing.last = Selection(made_or_changed_);
+      std::vector<ElementId> last = made_or_changed_;
+      std::erase_if(last, [&](ElementId id) {
+        return std::find(edit_.following.begin(), edit_.following.end(), id) !=
+               edit_.following.end();
+      });
+      drawing.last = Selection(std::move(last));
       drawing.last.Rehash(entries());
     } else if (Touches(drawing.last)) {
       drawing.last.Rehash(entries());

@@ -26,6 +26,7 @@ using OutputRequest = std::variant<RenderRequest, ExportRequest>;
 struct Edit {
   std::vector<ElementPtr> added;     // Apply gives them their ids, in order
   std::vector<ElementPtr> replaced;  // new content under the same id
+  std::vector<ElementId> following;  // those of `replaced` that only follow others: not in `last`
   std::vector<ElementId> consumed;   // made into something else: out of the model, geometry kept
   std::vector<ElementId> deleted;
   // With the first of `added` a group: these go into it (they leave the model as its members).

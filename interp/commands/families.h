@@ -11,6 +11,7 @@ namespace tranos::interp {
 std::span<const Command> PlaceCommands();
 std::span<const Command> PlaceSolidCommands();
 std::span<const Command> PlaceCurveCommands();  // ellipse, polygon, curve, arc tangent
+std::span<const Command> PlaceWallCommands();
 std::span<const Command> ChooseCommands();
 std::span<const Command> CreateCommands();
 std::span<const Command> TransformCommands();  // copy, move, rotate, mirror, scale
@@ -22,6 +23,7 @@ std::span<const Command> EditCommands();       // delete, drop, modify
 std::span<const Command> ConstructCommands();  // surfaces
 std::span<const Command> ConstructSolidCommands();
 std::span<const Command> SolidBooleanCommands();
+std::span<const Command> SymmetryCommands();  // symmetric, section
 std::span<const Command> PlaneCommands();
 std::span<const Command> ViewCommands();        // set view, view, level
 std::span<const Command> OutputCommands();      // render, export, print

@@ -19,12 +19,9 @@ constexpr Later Row(std::string_view words, std::string_view family, std::string
 
 constexpr Later kLater[] = {
     Row("place dimension", "place", "A measure between two points, with its number."),
-    Row("place wall", "place", "A wall of a thickness and a height along a line."),
     Row("construct surface tube", "construct", "A tube of a radius along a path."),
     Row("construct surface loft", "construct", "A surface through a row of profiles."),
-    Row("construct surface section", "construct", "The curves in which a plane cuts a surface."),
     Row("construct facade", "construct", "A vertical plane for drawing through the photograph."),
-    Row("construct symmetric", "construct", "The other half of a symmetric building."),
     Row("construct orthophoto", "construct", "The photograph of a facade, seen squarely."),
     Row("construct section", "construct", "A drawing of the model cut by a plane."),
     Row("attach drawing", "photograph",
