@@ -15,6 +15,8 @@ namespace {
 
 constexpr double kMitreLimit = 4;           // of the tip's distance from the corner, by the offset
 constexpr std::size_t kMostPieces = 5'000;  // each is compared with each
+constexpr double kShallow = 0.05;           // sine of a corner that is nearly straight
+constexpr double kNearer_m = 1e-8;          // than the distance, by more than rounding
 constexpr double kSmooth_rad = 1e-9;        // directions nearer than this are one
 
 using Piece = std::variant<Line, Arc>;
@@ -100,20 +102,45 @@ std::vector<Piece> Bridge(const Vec3& corner, const Vec3& in, const Vec3& out, c
   return {Line{start, first}, Line{first, last}, Line{last, end}};
 }
 
+// Moved sides of a corner that closes and is nearly straight are cut to where they meet: what
+// overlaps there comes nearer to the curve by too little to tell.
+void MeetAtShallowCorner(Piece* before, Piece* after, double distance_m) {
+  auto* a = std::get_if<Line>(before);
+  auto* b = std::get_if<Line>(after);
+  if (!a || !b) return;
+  const Vec3 in = (a->end - a->start).normalized(), out = (b->end - b->start).normalized();
+  const double sine = in.cross(out).norm(), cosine = in.dot(out);
+  if (sine > kShallow || cosine < 0) return;
+  const double cut_m = std::abs(distance_m) * sine / (1 + cosine);  // d·tan(θ/2)
+  if (cut_m >= 0.5 * std::min(LengthOf(*a), LengthOf(*b))) return;
+  a->end -= cut_m * in;
+  b->start = a->end;
+}
+
 // All pieces moved and gaps bridged; pieces of concave corners overlap.
 std::vector<Piece> RawPieces(const std::vector<Piece>& pieces, bool closed, const Side& side,
                              OffsetJoin join) {
   std::vector<Piece> raw;
+  std::vector<std::optional<Piece>> moved;
+  std::vector<std::vector<Piece>> bridges(pieces.size());
+  for (const Piece& piece : pieces) moved.push_back(Moved(piece, side));
   for (std::size_t i = 0; i < pieces.size(); ++i) {
-    if (auto moved = Moved(pieces[i], side)) raw.push_back(*moved);
     if (i + 1 == pieces.size() && !closed) break;
-    const Curve here = AsCurve(pieces[i]), next = AsCurve(pieces[(i + 1) % pieces.size()]);
+    const std::size_t after = (i + 1) % pieces.size();
+    const Curve here = AsCurve(pieces[i]), next = AsCurve(pieces[after]);
     const Vec3 in = TangentAt(here, 1), out = TangentAt(next, 0);
     const double sine = in.cross(out).dot(side.normal);
     const bool back = std::abs(sine) <= kSmooth_rad && in.dot(out) < 0;
     const bool opens = sine * side.distance_m < 0 && std::abs(sine) > kSmooth_rad;
-    if (!opens && !back) continue;
-    for (Piece& piece : Bridge(PointAt(here, 1), in, out, side, join)) raw.push_back(piece);
+    if (opens || back) {
+      bridges[i] = Bridge(PointAt(here, 1), in, out, side, join);
+    } else if (moved[i] && moved[after] && after != i) {
+      MeetAtShallowCorner(&*moved[i], &*moved[after], side.distance_m);
+    }
+  }
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    if (moved[i]) raw.push_back(*moved[i]);
+    raw.insert(raw.end(), bridges[i].begin(), bridges[i].end());
   }
   std::erase_if(raw, [](const Piece& piece) { return Length(AsCurve(piece)) <= kCoincident_m; });
   return raw;
@@ -140,8 +167,7 @@ void AddCuts(const Curve& a, const Curve& b, std::vector<double>* at_a, std::vec
 // Tells points that keep away from a curve from those that come nearer.
 class Keeper {
  public:
-  Keeper(const std::vector<Piece>& pieces, double distance_m)
-      : nearest_m_(distance_m - kMeeting_m) {
+  Keeper(const std::vector<Piece>& pieces, double distance_m) : nearest_m_(distance_m - kNearer_m) {
     for (const Piece& piece : pieces) {
       pieces_.push_back(AsCurve(piece));
       boxes_.push_back(BoundingBox(pieces_.back()));

@@ -18,7 +18,7 @@ class Help(harness.ProgramTest):
         for word in ("place arc", "construct surface edge", "undo mark", "render all", "tranos help place arc"):
             self.assertIn(word, text)
         self.assertIn("not in this version yet: ", text)
-        self.assertRegex(text, r"not in this version yet:[^.]*place\s+ellipse")
+        self.assertRegex(text, r"not in this version yet:[^.]*place\s+dimension")
 
     def test_lines_fit(self):
         for words in ([], ["place"], ["set", "view"], ["statements"], ["settings"], ["functions"], ["points"],
@@ -36,7 +36,7 @@ place arc
     place arc xy=10,0,0 xy=15,0,5 xy=20,0,0
     # then last.bbox.max.z within 5m +- 0.000001m
 
-  See also  place arc edge, place arc center
+  See also  place arc edge, place arc center, place arc tangent
 """)
         self.assertEqual(self.help("place arc"), self.help("PLACE", "Arc"))
 
@@ -60,7 +60,7 @@ place arc
                                                                            "array path"])
 
     def test_what_is_not_there_yet(self):
-        self.assertIn("E0001", self.help("place", "ellipse"))
+        self.assertIn("E0001", self.help("place", "dimension"))
 
     def test_words(self):
         self.assertIn("palette", self.help("co"))

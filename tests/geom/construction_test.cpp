@@ -34,7 +34,10 @@ TEST(RegularPolygon, HasEqualSides) {
 RC_GTEST_PROP(CurveThrough, RunsThroughItsPointsWithContinuousCurvature, ()) {
   std::vector<Vec3> points;
   const int count = *rc::gen::inRange(3, 9);
-  for (int i = 0; i < count; ++i) points.push_back(Vec3(3 * i, 0, 0) + 0.05 * DrawPoint());
+  for (int i = 0; i < count; ++i) {
+    const double angle = 2 * kPi * i / count;  // nowhere straight back
+    points.push_back(5 * Vec3(std::cos(angle), std::sin(angle), 0) + 0.05 * DrawPoint());
+  }
   const bool closed = *rc::gen::arbitrary<bool>();
   const BsplineCurve curve = *CurveThrough(points, closed);
   RC_ASSERT(Check(Curve(curve)).has_value());

@@ -97,6 +97,15 @@ TEST(Offset, CutsSharpTipsOff) {
   EXPECT_GT(box.max.x(), 10 + 3.9);
 }
 
+TEST(Offset, OfNearlyStraightCornersIsOne) {
+  for (const double bend : {1e-9, 1e-7, 1e-5, 1e-3, 1e-1}) {
+    const Polyline path{{{0, 0, 0}, {4, 0, 0}, {8, bend, 0}}, false};
+    for (const double distance : {0.01, 1.0, -0.01, -1.0}) {
+      EXPECT_EQ(MustOffset(path, distance).size(), 1u) << bend << " " << distance;
+    }
+  }
+}
+
 TEST(Offset, OfManyPiecesThatAllMeet) {
   Polyline round{{}, true};
   for (int i = 0; i < 600; ++i) {

@@ -113,7 +113,7 @@ TEST(Row, PromptsFitTheManner) {
 
 TEST(Row, LaterCommandsAreKnown) {
   for (const std::string_view words :
-       {"place ellipse", "place wall", "create region", "fillet", "construct solid from surfaces",
+       {"place dimension", "place wall", "construct solid from surfaces",
         "recover facade", "detect edges", "set facade", "plot"}) {
     const Command* row = FindCommand(words);
     ASSERT_NE(row, nullptr) << words;
