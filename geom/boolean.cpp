@@ -195,17 +195,17 @@ class LotEvaluation {
 Result<TriangleMesh> Evaluate(const Solid& solid) {
   auto expression = SolidExpression::Of(solid);
   if (!expression) return tl::unexpected(expression.error());
-  TriangleMesh result;
+  MeshRow result;
   for (const auto& lot : LotsOf(*expression)) {
     if (lot.size() == 1) {
-      if (expression->Contains(lot)) Append(*expression->leaves()[lot[0]], &result);
+      if (expression->Contains(lot)) result.Append(*expression->leaves()[lot[0]]);
       continue;
     }
     const auto part = LotEvaluation(expression->leaves(), lot, &*expression).Surface();
     if (!part) return part;
-    Append(*part, &result);
+    result.Append(*part);
   }
-  return result;
+  return result.Take();
 }
 
 }  // namespace tranos::geom

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <unordered_map>
+#include <unordered_set>
 
 #include "geom/union_find.h"
 
@@ -144,6 +145,11 @@ class PlaneMerge {
     ForEachEdge(sides_, [&](std::span<const EdgeSide> sides) {
       if (!IsBorder(sides)) return;
       const EdgeSide& edge = sides[0];
+      for (const EdgeSide& side : sides) {
+        const std::uint32_t region = regions_.Root(side.piece);
+        on_border_.insert(KeyOf(region, edge.low));
+        on_border_.insert(KeyOf(region, edge.high));
+      }
       for (const auto& [at, end] : {std::pair(edge.low, edge.high), {edge.high, edge.low}}) {
         Corner& corner = corners_[at];
         if (corner.borders < 2) corner.ends[corner.borders] = end;
@@ -159,11 +165,17 @@ class PlaneMerge {
            arrangement_.PlaneOf(pieces_[corner.region].facet) !=
                arrangement_.PlaneOf(pieces_[corner.other].facet);
   }
-  bool IsWithin(std::uint32_t c) const { return corners_[c].borders == 0; }
+  static std::uint64_t KeyOf(std::uint32_t region, std::uint32_t corner) {
+    return std::uint64_t{region} << 32 | corner;
+  }
+  bool IsWithin(std::uint32_t region, std::uint32_t c) const {
+    return !on_border_.contains(KeyOf(region, c));
+  }
   bool LosesCorners(const std::vector<std::uint32_t>& pieces) const {
     for (const std::uint32_t p : pieces) {
       for (const std::uint32_t c : pieces_[p].corners) {
-        if (IsSuperfluous(c) || (IsWithin(c) && corners_[c].other == kNone)) return true;
+        const bool is_within = IsWithin(regions_.Root(p), c);
+        if (IsSuperfluous(c) || (is_within && corners_[c].other == kNone)) return true;
       }
     }
     return false;
@@ -204,7 +216,8 @@ class PlaneMerge {
     for (const SurfacePiece& piece : pieces_) {
       const std::uint32_t region = regions_.Root(static_cast<std::uint32_t>(&piece - &pieces_[0]));
       for (const std::uint32_t c : piece.corners) {
-        if (IsWithin(c) && corners_[c].other != kNone) borders[region].push_back({c, c, true});
+        if (IsWithin(region, c) && corners_[c].other != kNone)
+          borders[region].push_back({c, c, true});
       }
     }
     return borders;
@@ -215,6 +228,7 @@ class PlaneMerge {
   std::vector<EdgeSide> sides_;
   UnionFind regions_;
   std::vector<Corner> corners_;
+  std::unordered_set<std::uint64_t> on_border_;  // regions with their borders' corners
 };
 
 }  // namespace

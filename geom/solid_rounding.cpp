@@ -2,6 +2,7 @@
 #include "geom/solid_rounding.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 namespace tranos::geom {
@@ -13,9 +14,11 @@ using Corners = std::array<std::uint32_t, 3>;
 // More rounds than were ever needed: each is of displacements of a last bit.
 constexpr int kMostRounds = 6;
 
+// Whether a corner is nearer than kCoincident_m to the opposite side.
 bool IsLine(const TriangleMesh& mesh, const Corners& t) {
   const Vec3 &a = mesh.positions[t[0]], &b = mesh.positions[t[1]], &c = mesh.positions[t[2]];
-  return (b - a).cross(c - a).isZero(0);
+  const double longest = std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()});
+  return (b - a).cross(c - a).norm() <= kCoincident_m * longest;
 }
 
 void EraseMarked(const std::vector<bool>& is_gone, TriangleMesh* mesh) {
@@ -95,9 +98,6 @@ bool RemoveOneRoundOfLines(TriangleMesh* mesh) {
   return true;
 }
 
-// What follows one piece's winding over a mesh that may cross itself.
-Result<TriangleMesh> CutAgain(const TriangleMesh& mesh);
-
 bool HasCrossingAt(const TriangleMesh& mesh, const std::vector<bool>& is_rounded) {
   Soup soup{mesh.positions, {}};
   std::vector<bool> is_suspect;
@@ -109,7 +109,7 @@ bool HasCrossingAt(const TriangleMesh& mesh, const std::vector<bool>& is_rounded
   return HasCrossing(soup, is_suspect);
 }
 
-void CleanUp(TriangleMesh* mesh) {
+void RemoveLines(TriangleMesh* mesh) {
   RemoveFolds(mesh);
   for (int round = 0; round < 100 && RemoveOneRoundOfLines(mesh); ++round) {
   }
@@ -125,9 +125,12 @@ TriangleMesh MeshOf(const Arrangement& arrangement, const std::vector<SurfacePie
     for (int i = 0; i < 3; ++i) {
       const std::uint32_t corner = piece.corners[i];
       if (number[corner] == 0xffffffff) {
-        number[corner] = index.Of(arrangement.Rounded(corner), &mesh.positions);
+        const Vec3 place = arrangement.Rounded(corner);
+        number[corner] = index.Of(place, &mesh.positions);
         is_rounded->resize(mesh.positions.size());
-        if (arrangement.IsRounded(corner)) (*is_rounded)[number[corner]] = true;
+        if (arrangement.IsRounded(corner) || mesh.positions[number[corner]] != place) {
+          (*is_rounded)[number[corner]] = true;
+        }
       }
       t[i] = number[corner];
     }
@@ -166,11 +169,33 @@ Result<TriangleMesh> CutAgain(const TriangleMesh& mesh) {
 
 }  // namespace
 
+std::uint32_t PositionIndex::Of(const Vec3& p, std::vector<Vec3>* list) {
+  // Cells many times wider than what is near, so that most places lie inside one.
+  constexpr double kCell_m = 1e-6;
+  const auto floor = [](double x) { return static_cast<std::int64_t>(std::floor(x / kCell_m)); };
+  std::array<std::array<std::int64_t, 2>, 3> range;
+  for (int k = 0; k < 3; ++k) range[k] = {floor(p[k] - kCoincident_m), floor(p[k] + kCoincident_m)};
+  for (std::int64_t x = range[0][0]; x <= range[0][1]; ++x) {
+    for (std::int64_t y = range[1][0]; y <= range[1][1]; ++y) {
+      for (std::int64_t z = range[2][0]; z <= range[2][1]; ++z) {
+        const auto [begin, end] = numbers_.equal_range({x, y, z});
+        for (auto at = begin; at != end; ++at) {
+          if (((*list)[at->second] - p).norm() <= kCoincident_m) return at->second;
+        }
+      }
+    }
+  }
+  const auto number = static_cast<std::uint32_t>(list->size());
+  list->push_back(p.array() + 0.0);  // −0 is 0
+  numbers_.emplace(Cell{floor(p.x()), floor(p.y()), floor(p.z())}, number);
+  return number;
+}
+
 Result<TriangleMesh> Rounded(const Arrangement& arrangement,
                              const std::vector<SurfacePiece>& pieces) {
   std::vector<bool> is_rounded;
   TriangleMesh mesh = MeshOf(arrangement, pieces, &is_rounded);
-  CleanUp(&mesh);
+  RemoveLines(&mesh);
   for (int round = 0; HasCrossingAt(mesh, is_rounded); ++round) {
     if (round == kMostRounds) {
       return tl::unexpected(Error{ErrorCode::kDegenerate,
@@ -179,21 +204,24 @@ Result<TriangleMesh> Rounded(const Arrangement& arrangement,
     auto again = CutAgain(mesh);
     if (!again) return again;
     mesh = std::move(*again);
-    CleanUp(&mesh);
+    RemoveLines(&mesh);
     is_rounded.clear();
   }
   return mesh;
 }
 
-void Append(const TriangleMesh& mesh, TriangleMesh* to) {
-  const auto first = static_cast<std::uint32_t>(to->positions.size());
-  std::uint32_t surface = 0;
-  for (const std::uint32_t s : to->surfaces) surface = std::max(surface, s + 1);
-  to->positions.insert(to->positions.end(), mesh.positions.begin(), mesh.positions.end());
+void MeshRow::Append(const TriangleMesh& mesh) {
+  const auto first = static_cast<std::uint32_t>(row_.positions.size());
+  row_.positions.insert(row_.positions.end(), mesh.positions.begin(), mesh.positions.end());
   for (const Corners& t : mesh.triangles) {
-    to->triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+    row_.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
   }
-  for (const std::uint32_t s : mesh.surfaces) to->surfaces.push_back(s + surface);
+  std::uint32_t taken = surfaces_;
+  for (const std::uint32_t s : mesh.surfaces) {
+    row_.surfaces.push_back(s + surfaces_);
+    taken = std::max(taken, s + surfaces_ + 1);
+  }
+  surfaces_ = taken;
 }
 
 }  // namespace tranos::geom

@@ -161,7 +161,8 @@ bool HasSelfIntersection(const TriangleMesh& mesh) {
   std::vector<std::uint32_t> corner_of;
   for (const Vec3& p : mesh.positions) corner_of.push_back(index.Of(p, &soup.positions));
   for (const auto& [a, b, c] : mesh.triangles) {
-    soup.facets.push_back({{corner_of[a], corner_of[b], corner_of[c]}, 0});
+    const std::array<std::uint32_t, 3> corners = {corner_of[a], corner_of[b], corner_of[c]};
+    if (!HasTwice(corners)) soup.facets.push_back({corners, 0});
   }
   return HasCrossing(soup);
 }
