@@ -25,6 +25,9 @@ Result<Loop> LoopOf(const Curve& curve, const Tolerance& tolerance, std::size_t 
   if (!IsClosed(curve)) return At(index, ErrorCode::kNotClosed, "the outline is open");
   Result<FacetedCurve> facets = FacetsOf(curve, tolerance);
   if (!facets) return At(index, facets.error().code, facets.error().detail);
+  if (facets->corners.size() > kMostOutlinePoints) {
+    return At(index, ErrorCode::kTooLarge, "the outline has more than 100 000 corners");
+  }
   Loop loop;
   loop.runs = SmoothRunsOf(*facets);
   for (const FacetCorner& corner : facets->corners) loop.points.push_back(corner.point);

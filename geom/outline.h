@@ -28,6 +28,11 @@ struct Outline {
 bool IsRound(const Outline&);
 inline Tolerance Halved(const Tolerance& t) { return {0.5 * t.chord_m, t.facets_per_turn}; }
 
+// More corners than these, of one outline and of a solid's whole skin, are refused (kTooLarge):
+// they would take minutes.
+inline constexpr std::size_t kMostOutlinePoints = 100'000;
+inline constexpr std::size_t kMostSkinPoints = 1'000'000;
+
 // A point of the outlines may lie this far off the plane of the first.
 inline constexpr double kOffPlane_m = 1e-6;
 

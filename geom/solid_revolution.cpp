@@ -77,9 +77,9 @@ Result<TriangleMesh> RevolutionMesh(const std::vector<Curve>& outline, const Vec
   const double sweep_rad = full ? 2 * kPi : angle_rad;
   const double count = full ? FullTurnFacets(about->largest_radius_m, tolerance)
                             : ArcFacets(about->largest_radius_m, sweep_rad, tolerance);
-  if (!(count * static_cast<double>(face->points.size()) < static_cast<double>(kMaxFacetPoints))) {
+  if (!(count * static_cast<double>(face->points.size()) < static_cast<double>(kMostSkinPoints))) {
     return tl::unexpected(
-        Error{ErrorCode::kTooLarge, "the tolerance asks for more than ten million points"});
+        Error{ErrorCode::kTooLarge, "the tolerance asks for more than a million points"});
   }
   Stations stations;
   stations.closed = full;

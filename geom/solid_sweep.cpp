@@ -31,9 +31,9 @@ class Sweeper {
 
   Result<TriangleMesh> Sweep(const Axes& start) {
     if (static_cast<double>(path_.corners.size()) * static_cast<double>(points_.size()) >
-        static_cast<double>(kMaxFacetPoints)) {
+        static_cast<double>(kMostSkinPoints)) {
       return tl::unexpected(
-          Error{ErrorCode::kTooLarge, "the tolerance asks for more than ten million points"});
+          Error{ErrorCode::kTooLarge, "the tolerance asks for more than a million points"});
     }
     if (!Carry(start)) return TooTight();
     Stations stations;

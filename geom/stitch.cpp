@@ -73,6 +73,8 @@ class Stitcher {
   }
 
  private:
+  // New corners of borders, by the border's ends, the lower first; from there on.
+  using Inserted = std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::uint32_t>>;
   using Cell = std::array<std::int64_t, 3>;
   static Cell CellOf(const Vec3& p) {
     Cell cell;
@@ -123,7 +125,7 @@ class Stitcher {
   // Corners of other surfaces' borders that lie along a border, in order from its start.
   void SplitBorders() {
     const std::vector<Border> borders = Borders();
-    std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::uint32_t>> inserted;
+    Inserted inserted;
     for (const Border& border : borders) {
       std::map<double, std::uint32_t> along;
       for (const Border& other : borders) {
@@ -142,7 +144,7 @@ class Stitcher {
     TriangleMesh whole = std::move(mesh_);
     mesh_ = {std::move(whole.positions), {}, {}};
     for (std::size_t i = 0; i < whole.triangles.size(); ++i) {
-      AddSplit(whole.triangles[i], whole.surfaces[i], inserted);
+      AddSplit(whole.triangles[i], {true, true, true}, whole.surfaces[i], inserted);
     }
   }
   // Where along the border the corner lies, in (0, 1); 0 if it lies elsewhere.
@@ -161,20 +163,22 @@ class Stitcher {
     const Vec3 normal = (1 - share) * from->second + share * to->second;
     NoteNormal(border.surface, corner, normal.normalized());
   }
-  // The triangle, or a fan for each of its sides that was split.
-  void AddSplit(const Triangle& t, std::uint32_t surface,
-                const std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::uint32_t>>&
-                    inserted) {
+  // The triangle, or a fan for each of its sides that was split. `whole` says which sides (the one
+  // from corner k first) are still as they were: parts of a split one are not split again.
+  void AddSplit(const Triangle& t, const std::array<bool, 3>& whole, std::uint32_t surface,
+                const Inserted& inserted) {
     for (std::size_t k = 0; k < 3; ++k) {
       const std::uint32_t a = t[k], b = t[(k + 1) % 3], apex = t[(k + 2) % 3];
-      const auto found = inserted.find(std::minmax(a, b));
+      const auto found = whole[k] ? inserted.find(std::minmax(a, b)) : inserted.end();
       if (found == inserted.end()) continue;
       std::vector<std::uint32_t> row = found->second;
       if (a > b) std::reverse(row.begin(), row.end());
       row.push_back(b);
       std::uint32_t from = a;
       for (const std::uint32_t to : row) {
-        AddSplit({apex, std::exchange(from, to), to}, surface, inserted);
+        const std::array<bool, 3> sides = {from == a && whole[(k + 2) % 3], false,
+                                           to == b && whole[(k + 1) % 3]};
+        AddSplit({apex, std::exchange(from, to), to}, sides, surface, inserted);
       }
       return;
     }

@@ -137,7 +137,7 @@ TEST(SolidShape, APathThatTurnsTooTightlyIsRefused) {
   const Curve section = Rectangle({-2, -2, 0}, {4, 0, 0}, {0, 4, 0});
   for (const Curve& path :
        {Curve(Circle{{}, 1}), Curve(Polyline{{{0, 0, 0}, {5, 0, 0}, {1, 0, 0}}}),
-        Curve(Polyline{{{0, 0, 0}, {5, 0, 0}, {5, 1, 0}, {9, 1, 0}}})}) {
+        Curve(Polyline{{{0, 0, 0}, {5, 0, 0}, {5, 1, 0}, {0, 1, 0}}})}) {
     const auto mesh = SweepMesh({section}, path, Vec3::UnitZ(), kFine);
     ASSERT_FALSE(mesh);
     EXPECT_EQ(mesh.error().code, ErrorCode::kOutOfRange);

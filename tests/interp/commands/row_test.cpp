@@ -113,8 +113,8 @@ TEST(Row, PromptsFitTheManner) {
 
 TEST(Row, LaterCommandsAreKnown) {
   for (const std::string_view words :
-       {"place dimension", "place wall", "construct solid from surfaces",
-        "recover facade", "detect edges", "set facade", "plot"}) {
+       {"place dimension", "construct surface tube", "construct surface loft", "recover facade",
+        "detect edges", "set facade", "plot"}) {
     const Command* row = FindCommand(words);
     ASSERT_NE(row, nullptr) << words;
     EXPECT_FALSE(IsCarriedOut(*row)) << words;
