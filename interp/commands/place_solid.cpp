@@ -168,7 +168,7 @@ constexpr Example kSlabExamples[] = {
     {"place slab length=4m width=0m height=1m xy=0,0,0", "E0212"}};
 constexpr Example kWedgeExamples[] = {
     {"place wedge length=4m width=3m height=2m xy=0,0,0", "last.volume within 12m3 +- 0.000001m3"},
-    {"place wedge xy=0,0,0 xy=4,0,0 xy=4,0,0", "E0501"}};
+    {"place wedge xy=0,0,0 xy=4,0,0 xy=4,0,0 xy=4,0,2", "E0501"}};
 constexpr Example kCylinderExamples[] = {
     {"fn=4; place cylinder radius=1m height=3m xy=0,0,0", "last.volume within 6m3 +- 0.000001m3"},
     {"place cylinder xy=0,0,0 xy=2,0,0 xy=0,0,5", "last.bbox.size.z == 5m"},

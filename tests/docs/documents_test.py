@@ -55,7 +55,7 @@ class Examples(unittest.TestCase):
         self.assertIn("made_up.md:4: what is expected here?", findings(example("let a = 1  # expect error")))
 
     def test_what_is_for_later_says_so(self):
-        self.assertEqual([], findings(example("place sphere xy=0,0,0", "trn later")))
+        self.assertEqual([], findings(example("place dimension xy=0,0,0", "trn later")))
         found = findings(example("place point xy=0,0,0", "trn later"))
         self.assertEqual(["made_up.md:4: expected E0001 alone, got []"], found)
 

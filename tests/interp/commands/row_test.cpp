@@ -64,8 +64,9 @@ TEST(Row, KeysAreDeclaredSoundly) {
       EXPECT_TRUE(names.insert(key.name).second) << row.words << " " << key.name;
       EXPECT_FALSE(key.summary.empty()) << row.words << " " << key.name;
       EXPECT_LT(key.prompt, static_cast<int>(row.prompts.size())) << row.words;
-      // A closed list of words, or a few that say a number.
-      const bool counts = key.type == Type::kCount || key.type == Type::kNumber;
+      // A closed list of words, or a few that say a number or a place.
+      const bool counts = key.type == Type::kCount || key.type == Type::kNumber ||
+                          (key.type == Type::kAny && !key.words.empty());
       EXPECT_TRUE(counts || (key.type == Type::kWord) == !key.words.empty())
           << row.words << " " << key.name;
     }

@@ -55,7 +55,8 @@ struct Bench {
             [this](std::uint64_t items) {
               charged += items;
               if (charged > limit) throw OpFailure{Code::kStepLimit, "too many items"};
-            }};
+            },
+            [](const model::Element&) {}};
   }
   Value Op2(Op op, const Value& a, const Value& b) { return Binary(op, a, b, arithmetic()); }
   Value PlusMinus(const Value& value, const Value& sigma, bool relative = false) {
