@@ -14,6 +14,25 @@ namespace tranos::geom {
 
 namespace {
 
+// As the kernel, but the predicates are quick about points that are plain doubles: those in a line,
+// which are as frequent in buildings as they are rare elsewhere, would else be told by fractions.
+struct FlatKernel : Kernel {
+  static bool IsPlain(const Point2& p) {
+    return p.approx().x().is_point() && p.approx().y().is_point();
+  }
+  static Predicates::Point_2 Plain(const Point2& p) {
+    return {p.approx().x().inf(), p.approx().y().inf()};
+  }
+  struct Orientation_2 {
+    using result_type = CGAL::Orientation;
+    CGAL::Orientation operator()(const Point2& a, const Point2& b, const Point2& c) const {
+      if (!IsPlain(a) || !IsPlain(b) || !IsPlain(c)) return Kernel::Orientation_2()(a, b, c);
+      return CGAL::orientation(FlatKernel::Plain(a), FlatKernel::Plain(b), FlatKernel::Plain(c));
+    }
+  };
+  Orientation_2 orientation_2_object() const { return {}; }
+};
+
 // A plane cut by lines, as triangles.
 class PlaneCuts {
  public:
@@ -27,17 +46,19 @@ class PlaneCuts {
   }
 
  private:
-  using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<std::uint32_t, Kernel>;
-  using FaceBase = CGAL::Constrained_triangulation_face_base_2<Kernel>;
+  using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<std::uint32_t, FlatKernel>;
+  using FaceBase = CGAL::Constrained_triangulation_face_base_2<FlatKernel>;
   using Structure = CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>;
   using Triangulation =
-      CGAL::Constrained_triangulation_2<Kernel, Structure, CGAL::Exact_intersections_tag>;
+      CGAL::Constrained_triangulation_2<FlatKernel, Structure, CGAL::Exact_intersections_tag>;
 
  public:
   using Vertex = Triangulation::Vertex_handle;
   using Face = Triangulation::Face_handle;
 
   Point2 Flat(std::uint32_t corner) const {
+    const auto plain = corners_.Plain(corner);
+    if (plain) return {(*plain)[projection_.u], (*plain)[projection_.v]};
     const Point p = corners_.At(corner);
     return {p[projection_.u], p[projection_.v]};
   }
@@ -204,7 +225,7 @@ void Arrangement::Exact::Cut(bool within_meshes) {
   ForEachNearPair(soup, within_meshes, [&](std::uint32_t s, std::uint32_t t) {
     std::uint32_t from = kNoCorner, to = kNoCorner;
     const auto meeting = finder.Meet(s, t, &from, &to);
-    if (meeting == CrossingFinder::Meeting::kApart) return true;
+    if (meeting == CrossingFinder::Meeting::kApart) return;
     is_cut[s] = is_cut[t] = true;
     if (meeting == CrossingFinder::Meeting::kInPlane) {
       clusters.Unite(s, t);
@@ -213,7 +234,6 @@ void Arrangement::Exact::Cut(bool within_meshes) {
       crossings.push_back({s, from, to});
       crossings.push_back({t, from, to});
     }
-    return true;
   });
 
   // By cluster, in the order of their first facets.
@@ -394,7 +414,6 @@ Vec3 Arrangement::Rounded(std::uint32_t corner) const { return exact_->corners.R
 bool Arrangement::IsRounded(std::uint32_t corner) const {
   return exact_->corners.IsRounded(corner);
 }
-Vec3 Arrangement::Near(std::uint32_t corner) const { return exact_->corners.Near(corner); }
 std::uint32_t Arrangement::PlaneOf(std::uint32_t facet) const { return exact_->planes.Root(facet); }
 
 Result<int> Arrangement::Winding(const Piece& piece, std::uint32_t mesh) const {

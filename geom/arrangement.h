@@ -54,7 +54,6 @@ class Arrangement {
   // To the nearest doubles, but for the last bit.
   Vec3 Rounded(std::uint32_t corner) const;
   bool IsRounded(std::uint32_t corner) const;  // the doubles are not the place itself
-  Vec3 Near(std::uint32_t corner) const;       // near enough to compare sizes
   // Facets found to lie in one plane, because they share an edge or overlap, have one number.
   std::uint32_t PlaneOf(std::uint32_t facet) const;
 

@@ -107,8 +107,9 @@ class LotEvaluation {
     std::vector<double> area(patches.size(), -1);
     for (std::uint32_t i = 0; i < patches.size(); ++i) {
       const auto& c = arrangement_.pieces()[i].corners;
-      const Vec3 a = arrangement_.Near(c[0]);
-      const double size = (arrangement_.Near(c[1]) - a).cross(arrangement_.Near(c[2]) - a).norm();
+      const Vec3 a = arrangement_.Rounded(c[0]);
+      const double size =
+          (arrangement_.Rounded(c[1]) - a).cross(arrangement_.Rounded(c[2]) - a).norm();
       if (size <= area[patches[i]]) continue;
       area[patches[i]] = size;
       largest[patches[i]] = i;
@@ -126,7 +127,7 @@ class LotEvaluation {
       (label.opposite ? front : back).push_back(lot_[mesh]);
     }
     Vec3 middle = Vec3::Zero();
-    for (const std::uint32_t corner : piece.corners) middle += arrangement_.Near(corner) / 3;
+    for (const std::uint32_t corner : piece.corners) middle += arrangement_.Rounded(corner) / 3;
     std::vector<std::uint32_t> around;
     tree.ForEachMeeting({middle, middle}, [&](std::uint32_t mesh) {
       if (!is_own[mesh]) around.push_back(mesh);

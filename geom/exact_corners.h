@@ -7,7 +7,8 @@
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 
 #include <array>
-#include <cmath>
+#include <bit>
+#include <optional>
 #include <unordered_map>
 #include <vector>
 
@@ -65,95 +66,66 @@ inline Projection ProjectionOf(const Triangle& t) {
 class CornerTable {
  public:
   explicit CornerTable(const std::vector<Vec3>& given) : given_(given) {
-    cells_.reserve(given.size());
+    numbers_.reserve(given.size());
     for (std::uint32_t i = 0; i < given.size(); ++i) Enter(given[i], i);
   }
 
   std::uint32_t size() const { return static_cast<std::uint32_t>(given_.size() + made_.size()); }
   Point At(std::uint32_t corner) const {
-    if (corner >= given_.size()) return made_[corner - given_.size()];
-    const Vec3& p = given_[corner];
-    return {p.x(), p.y(), p.z()};
+    if (const auto p = Plain(corner)) return {p->x(), p->y(), p->z()};
+    return made_[corner - given_.size()].exact;
+  }
+  // The place, where it can be said in doubles; nothing for the others.
+  std::optional<Vec3> Plain(std::uint32_t corner) const {
+    if (corner < given_.size()) return given_[corner];
+    const Made& made = made_[corner - given_.size()];
+    if (!made.is_plain) return std::nullopt;
+    return made.rounded;
   }
   Vec3 Rounded(std::uint32_t corner) const {
-    if (corner < given_.size()) return given_[corner];
-    const auto& p = made_[corner - given_.size()].exact();
-    return {CGAL::to_double(p.x()), CGAL::to_double(p.y()), CGAL::to_double(p.z())};
+    return corner < given_.size() ? given_[corner] : made_[corner - given_.size()].rounded;
   }
-
-  bool IsRounded(std::uint32_t corner) const {
-    if (corner < given_.size()) return false;
-    const Vec3 r = Rounded(corner);
-    const auto& p = made_[corner - given_.size()].exact();
-    return p.x() != r.x() || p.y() != r.y() || p.z() != r.z();
-  }
-  // Near enough to compare sizes.
-  Vec3 Near(std::uint32_t corner) const {
-    if (corner < given_.size()) return given_[corner];
-    return Middle(made_[corner - given_.size()]);
-  }
+  bool IsRounded(std::uint32_t corner) const { return !Plain(corner); }
 
   // The corner at `p`, a new one if there is none.
   std::uint32_t Of(const Point& p) {
-    const Vec3 middle = Middle(p);
-    for (const Cell& cell : CellsAround(middle)) {
-      const auto [begin, end] = cells_.equal_range(KeyOf(cell));
-      for (auto at = begin; at != end; ++at) {
-        if (At(at->second) == p) return at->second;
-      }
+    const auto& exact = p.exact();
+    const Vec3 rounded(CGAL::to_double(exact.x()), CGAL::to_double(exact.y()),
+                       CGAL::to_double(exact.z()));
+    const bool is_plain =
+        exact.x() == rounded.x() && exact.y() == rounded.y() && exact.z() == rounded.z();
+    const auto [begin, end] = numbers_.equal_range(rounded);
+    for (auto at = begin; at != end; ++at) {
+      if (IsRounded(at->second) == is_plain) continue;
+      if (is_plain || At(at->second) == p) return at->second;
     }
-    made_.push_back(p);
-    Enter(middle, size() - 1);
+    made_.push_back({p, rounded, is_plain});
+    Enter(rounded, size() - 1);
     return size() - 1;
   }
 
  private:
-  using Cell = std::array<std::int64_t, 3>;
-  static constexpr double kCell_m = 1e-4;
-  // An approximation is nearer than this to what it approximates, or is made so.
-  static constexpr double kNear_m = 1e-6;
-
-  static Vec3 Middle(const Point& p) {
-    auto a = p.approx();
-    const auto is_wide = [](const auto& i) { return !(i.sup() - i.inf() < kNear_m); };
-    if (is_wide(a.x()) || is_wide(a.y()) || is_wide(a.z())) {
-      p.exact();
-      a = p.approx();
-    }
-    const auto middle = [](const auto& i) { return 0.5 * (i.inf() + i.sup()); };
-    return {middle(a.x()), middle(a.y()), middle(a.z())};
-  }
-  static std::int64_t Floor(double x) { return static_cast<std::int64_t>(std::floor(x / kCell_m)); }
-  // The cell of p, and those that points nearer than twice kNear_m may lie in.
-  static std::vector<Cell> CellsAround(const Vec3& p) {
-    std::vector<Cell> cells{{}};
-    for (int k = 0; k < 3; ++k) {
-      const std::int64_t low = Floor(p[k] - 2 * kNear_m), high = Floor(p[k] + 2 * kNear_m);
-      const std::size_t count = cells.size();
-      for (std::size_t i = 0; i < count; ++i) {
-        cells[i][k] = low;
-        if (high == low) continue;
-        cells.push_back(cells[i]);
-        cells.back()[k] = high;
+  struct Made {
+    Point exact;
+    Vec3 rounded;
+    bool is_plain;
+  };
+  struct Hash {
+    std::size_t operator()(const Vec3& p) const {
+      std::uint64_t key = 0;
+      for (const double x : p) {
+        key = (key ^ std::bit_cast<std::uint64_t>(x + 0.0)) * 0x9e3779b97f4a7c15u;  // −0 is 0
+        key ^= key >> 29;
       }
+      return key;
     }
-    return cells;
-  }
-  static std::uint64_t KeyOf(const Cell& c) {
-    std::uint64_t key = 0;
-    for (const std::int64_t i : c) {
-      key = (key ^ static_cast<std::uint64_t>(i)) * 0x9e3779b97f4a7c15u;
-      key ^= key >> 29;
-    }
-    return key;
-  }
-  void Enter(const Vec3& p, std::uint32_t corner) {
-    cells_.emplace(KeyOf({Floor(p.x()), Floor(p.y()), Floor(p.z())}), corner);
-  }
+  };
+  void Enter(const Vec3& p, std::uint32_t corner) { numbers_.emplace(p, corner); }
 
   const std::vector<Vec3>& given_;
-  std::vector<Point> made_;
-  std::unordered_multimap<std::uint64_t, std::uint32_t> cells_;
+  std::vector<Made> made_;
+  // By what they are when rounded, which is the same for equal ones.
+  std::unordered_multimap<Vec3, std::uint32_t, Hash> numbers_;
 };
 
 }  // namespace tranos::geom

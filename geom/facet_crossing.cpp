@@ -181,16 +181,21 @@ bool CrossingFinder::Before(std::uint32_t a, std::uint32_t b, const Vec3& along)
 }
 
 bool HasCrossing(const Soup& soup, const std::vector<bool>& is_suspect) {
+  const auto suspect = [&](std::uint32_t facet) { return is_suspect.empty() || is_suspect[facet]; };
+  const std::vector<Box> boxes = BoxesOf(soup);
+  const BoxTree tree(boxes);
   CornerTable corners(soup.positions);
   const UnionFind planes(soup.facets.size());
   CrossingFinder finder(soup, planes, &corners);
   bool found = false;
-  ForEachNearPair(soup, true, [&](std::uint32_t s, std::uint32_t t) {
-    if (!is_suspect.empty() && !is_suspect[s] && !is_suspect[t]) return true;
-    std::uint32_t from = kNoCorner, to = kNoCorner;
-    found = finder.Meet(s, t, &from, &to) != CrossingFinder::Meeting::kApart;
-    return !found;
-  });
+  for (std::uint32_t s = 0; s < boxes.size() && !found; ++s) {
+    if (!suspect(s)) continue;
+    tree.ForEachMeeting(boxes[s], [&](std::uint32_t t) {
+      if (found || t == s || (t < s && suspect(t))) return;
+      std::uint32_t from = kNoCorner, to = kNoCorner;
+      found = finder.Meet(s, t, &from, &to) != CrossingFinder::Meeting::kApart;
+    });
+  }
   return found;
 }
 

@@ -10,13 +10,18 @@
 
 namespace tranos::geom {
 
+inline std::vector<Box> BoxesOf(const Soup& soup) {
+  std::vector<Box> boxes(soup.facets.size());
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    for (const std::uint32_t corner : soup.facets[i].corners) boxes[i].Add(soup.positions[corner]);
+  }
+  return boxes;
+}
+
 // Pairs of facets whose boxes meet, of different meshes unless `within_meshes`.
 template <class Visit>
 void ForEachNearPair(const Soup& soup, bool within_meshes, Visit&& visit) {
-  std::vector<Box> boxes(soup.facets.size());
-  for (std::uint32_t i = 0; i < boxes.size(); ++i) {
-    for (const std::uint32_t corner : soup.facets[i].corners) boxes[i].Add(soup.positions[corner]);
-  }
+  const std::vector<Box> boxes = BoxesOf(soup);
   std::vector<Box> mesh_boxes;
   for (std::uint32_t i = 0; i < boxes.size(); ++i) {
     const std::uint32_t mesh = soup.facets[i].mesh;
@@ -50,7 +55,7 @@ void ForEachNearPair(const Soup& soup, bool within_meshes, Visit&& visit) {
     });
     std::sort(others.begin(), others.end());
     for (const std::uint32_t other : others) {
-      if (!visit(near[k], other)) return;
+      visit(near[k], other);
     }
   }
 }
