@@ -69,8 +69,31 @@ std::string PlanProblem(const model::Model& model) {
   return problem;
 }
 
+// What is wrong with the facets of the model's solids, as a sentence; "" if nothing is. Whether
+// they cross one another is found exactly and takes its time, so that it is looked for where it is
+// asked for.
+std::string FacetProblem(const model::Model& model, bool crossings_too) {
+  std::string problem;
+  const auto look = [&](const geom::Solid& solid) -> std::string {
+    const auto facets = solid.Facets();
+    if (!facets) return "a solid cannot be evaluated: " + facets.error().detail;
+    if (!geom::IsClosed(**facets)) return "the surface of a solid is open";
+    if (crossings_too && geom::HasSelfIntersection(**facets)) return "a solid intersects itself";
+    return "";
+  };
+  model.ForEach([&](const ElementPtr& element) {
+    model::ForEachLeaf(
+        *element, [&](const model::Element& leaf, const geom::Affine&, const model::Attributes&) {
+          const auto* solid = std::get_if<model::SolidPtr>(&leaf.geometry);
+          if (solid && problem.empty()) problem = look(**solid);
+        });
+  });
+  return problem;
+}
+
 // What is wrong with the element placed by this line; "" if nothing is.
-std::string ProblemOf(const ElementLibrary& elements, const Job& job, const std::string& line) {
+std::string ProblemOf(const ElementLibrary& elements, const Job& job, const std::string& line,
+                      bool is_standard) {
   interp::BindOptions bind;
   bind.library = elements.library;
   const std::string script = ScriptFor(elements, *job.element, line);
@@ -83,8 +106,9 @@ std::string ProblemOf(const ElementLibrary& elements, const Job& job, const std:
     return "not so: " + (assertion.message.empty() ? assertion.text : assertion.message) +
            "; it is " + assertion.value + ", expected " + assertion.expected + "\n";
   }
-  if (job.detail != "plan") return "";
-  const std::string problem = PlanProblem(result.outcome.state.model);
+  const model::Model& model = result.outcome.state.model;
+  const std::string problem =
+      job.detail == "plan" ? PlanProblem(model) : FacetProblem(model, is_standard);
   return problem.empty() ? "" : problem + "\n";
 }
 
@@ -101,7 +125,10 @@ void Do(const ElementLibrary& elements, Job* job, const SoakOptions& options) {
   for (const std::vector<Pick>& picks : settings) {
     ++job->settings;
     const auto line = PlacementOf(*job->element, picks, job->detail, &draws);
-    const std::string problem = line ? ProblemOf(elements, *job, *line) : line.error() + "\n";
+    const bool is_standard =
+        std::all_of(picks.begin(), picks.end(), [](Pick pick) { return pick == Pick::kStandard; });
+    const std::string problem =
+        line ? ProblemOf(elements, *job, *line, is_standard) : line.error() + "\n";
     if (!problem.empty()) job->failures.push_back((line ? *line + "\n" : "") + problem);
   }
 }

@@ -19,8 +19,16 @@ Vec3 DoubledNormal(const TriangleMesh& mesh, const std::array<std::uint32_t, 3>&
   return (mesh.positions[t[1]] - p).cross(mesh.positions[t[2]] - p);
 }
 
+Mesh MeshOf(const Outline& outline) {
+  Mesh mesh;
+  mesh.positions = outline.points;
+  mesh.normals.assign(mesh.positions.size(), outline.plane.z());
+  mesh.triangles = outline.triangles;
+  return mesh;
+}
+
 Result<std::vector<Mesh>> MeshesOf(const std::vector<Surface>& surfaces,
-                                   const Tolerance& tolerance) {
+                                   const std::vector<Face>& faces, const Tolerance& tolerance) {
   std::vector<Mesh> meshes;
   for (std::size_t i = 0; i < surfaces.size(); ++i) {
     Result<Mesh> mesh = Tessellate(surfaces[i], tolerance);
@@ -29,15 +37,15 @@ Result<std::vector<Mesh>> MeshesOf(const std::vector<Surface>& surfaces,
     }
     meshes.push_back(*std::move(mesh));
   }
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    const Result<Outline> outline = OutlineOf(faces[i], tolerance);
+    if (!outline) {
+      return tl::unexpected(Error{outline.error().code, outline.error().detail,
+                                  static_cast<int>(surfaces.size() + i)});
+    }
+    meshes.push_back(MeshOf(*outline));
+  }
   return meshes;
-}
-
-Mesh FaceOf(const Outline& outline) {
-  Mesh mesh;
-  mesh.positions = outline.points;
-  mesh.normals.assign(mesh.positions.size(), outline.plane.z());
-  mesh.triangles = outline.triangles;
-  return mesh;
 }
 
 // Facets of neighbours may each lie off the common border by the chord tolerance.
@@ -146,17 +154,9 @@ TriangleMesh Layers(const TriangleMesh& mesh, const std::vector<Vec3>& outer,
 }  // namespace
 
 Result<TriangleMesh> EnclosedMesh(const std::vector<Surface>& surfaces,
-                                  const std::vector<Curve>& outlines, const Tolerance& tolerance) {
-  Result<std::vector<Mesh>> meshes = MeshesOf(surfaces, tolerance);
+                                  const std::vector<Face>& faces, const Tolerance& tolerance) {
+  const Result<std::vector<Mesh>> meshes = MeshesOf(surfaces, faces, tolerance);
   if (!meshes) return tl::unexpected(meshes.error());
-  for (std::size_t i = 0; i < outlines.size(); ++i) {
-    const Result<Outline> outline = OutlineOf({outlines[i]}, tolerance);
-    if (!outline) {
-      return tl::unexpected(Error{outline.error().code, outline.error().detail,
-                                  static_cast<int>(surfaces.size() + i)});
-    }
-    meshes->push_back(FaceOf(*outline));
-  }
   Stitched stitched = Stitch(*meshes, StitchTolerance(tolerance));
   if (const std::optional<Vec3> open = OpenAt(stitched.mesh)) {
     return tl::unexpected(Error{ErrorCode::kNotClosed,
@@ -170,12 +170,13 @@ Result<TriangleMesh> EnclosedMesh(const std::vector<Surface>& surfaces,
   return FacingOutward(std::move(stitched.mesh));
 }
 
-Result<TriangleMesh> ThickenedMesh(const std::vector<Surface>& surfaces, double outward_m,
+Result<TriangleMesh> ThickenedMesh(const std::vector<Surface>& surfaces,
+                                   const std::vector<Face>& faces, double outward_m,
                                    double inward_m, const Tolerance& tolerance) {
   if (!(outward_m + inward_m > kCoincident_m)) {
     return tl::unexpected(Error{ErrorCode::kDegenerate, "the thickness is nothing"});
   }
-  const Result<std::vector<Mesh>> meshes = MeshesOf(surfaces, tolerance);
+  const Result<std::vector<Mesh>> meshes = MeshesOf(surfaces, faces, tolerance);
   if (!meshes) return tl::unexpected(meshes.error());
   Stitched stitched = Stitch(*meshes, StitchTolerance(tolerance));
   CompleteNormals(&stitched);

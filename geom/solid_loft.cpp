@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "geom/faceted_curve.h"
 #include "geom/skin.h"
@@ -208,6 +209,76 @@ Result<TriangleMesh> LoftMesh(const std::vector<Curve>& outlines, const Toleranc
   stations.run_count = static_cast<std::uint32_t>(loops->size()) - 1;
   stations.last_triangles = *std::move(last);
   return SkinOf(FirstOutline(*loops, *std::move(first)), stations);
+}
+
+namespace {
+
+Result<Solid> LoftOf(const std::vector<Curve>& outlines, const Tolerance& tolerance) {
+  Result<TriangleMesh> mesh = LoftMesh(outlines, tolerance);
+  if (!mesh) return tl::unexpected(mesh.error());
+  return Solid::FromMesh(*std::move(mesh));
+}
+
+// Where each curve of a face has its middle, seen from that of the first.
+Result<std::vector<Vec3>> MiddlesOf(const std::vector<Curve>& face, std::size_t index) {
+  std::vector<Vec3> middles;
+  for (const Curve& curve : face) {
+    const Result<Vec3> middle = Centroid(curve);
+    if (!middle) {
+      return tl::unexpected(
+          Error{middle.error().code, middle.error().detail, static_cast<int>(index)});
+    }
+    middles.push_back(*middle);
+  }
+  for (std::size_t i = middles.size(); i-- > 0;) middles[i] -= middles[0];
+  return middles;
+}
+
+// The face's curves in the order in which they follow those with the middles `before`: of all
+// pairs the nearest first.
+std::vector<std::size_t> OrderAfter(const std::vector<Vec3>& before,
+                                    const std::vector<Vec3>& middles) {
+  std::vector<std::tuple<double, std::size_t, std::size_t>> pairs;
+  for (std::size_t i = 1; i < before.size(); ++i) {
+    for (std::size_t k = 1; k < middles.size(); ++k) {
+      pairs.emplace_back((before[i] - middles[k]).norm(), i, k);
+    }
+  }
+  std::sort(pairs.begin(), pairs.end());
+  std::vector<std::size_t> order(before.size(), 0);
+  std::vector<bool> taken(middles.size(), false);
+  for (const auto& [distance, i, k] : pairs) {
+    if (order[i] != 0 || taken[k]) continue;
+    order[i] = k;
+    taken[k] = true;
+  }
+  return order;
+}
+
+}  // namespace
+
+Result<Solid> LoftSolid(const std::vector<std::vector<Curve>>& faces, const Tolerance& tolerance) {
+  std::vector<std::vector<Curve>> rows(faces.front().size());  // of the outlines, and of each hole
+  std::vector<Vec3> before;
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    const Result<std::vector<Vec3>> middles = MiddlesOf(faces[f], f);
+    if (!middles) return tl::unexpected(middles.error());
+    const std::vector<std::size_t> order = OrderAfter(f == 0 ? *middles : before, *middles);
+    before.clear();
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      rows[i].push_back(faces[f][order[i]]);
+      before.push_back((*middles)[order[i]]);
+    }
+  }
+  std::vector<Solid> solids;
+  for (const std::vector<Curve>& row : rows) {
+    Result<Solid> solid = LoftOf(row, tolerance);
+    if (!solid) return solid;
+    solids.push_back(*std::move(solid));
+  }
+  Solid outer = std::move(solids.front());
+  solids.erase(solids.begin());
+  return Solid::Difference(std::move(outer), std::move(solids));
 }
 
 }  // namespace tranos::geom

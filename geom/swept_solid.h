@@ -4,8 +4,7 @@
 // fault by its index: kNotClosed, kNotPlanar, kDegenerate (it crosses itself or another).
 #pragma once
 
-#include "geom/curve.h"
-#include "geom/triangle_mesh.h"
+#include "geom/solid.h"
 
 namespace tranos::geom {
 
@@ -36,5 +35,9 @@ bool StandsAtStart(const Curve& outline, const Curve& path);
 // matched where the outlines have equally many, else points at equal shares of the length, from
 // those that lie nearest to one another.
 Result<TriangleMesh> LoftMesh(const std::vector<Curve>& outlines, const Tolerance&);
+// The same through faces of one outline each, which comes first, and equally many holes: the loft
+// of the outlines less those of the holes. A hole goes on into the one that is nearest, each seen
+// from the middle of its outline.
+Result<Solid> LoftSolid(const std::vector<std::vector<Curve>>& faces, const Tolerance&);
 
 }  // namespace tranos::geom

@@ -119,18 +119,23 @@ std::vector<std::string> CurveMembers(const geom::Curve& curve) {
   return names;
 }
 
+constexpr std::string_view kSolidMembers[] = {"centroid", "closed", "genus",
+                                              "faces",    "shells", "self_intersects"};
+
 // What is measured on a solid's facets; nothing where it has no such member.
 std::optional<Value> SolidMember(const CallContext& context, const Element& element,
                                  std::string_view name) {
-  constexpr std::string_view kNames[] = {"centroid", "closed", "genus", "faces", "shells"};
-  if (std::find(std::begin(kNames), std::end(kNames), name) == std::end(kNames))
+  if (std::find(std::begin(kSolidMembers), std::end(kSolidMembers), name) ==
+      std::end(kSolidMembers)) {
     return std::nullopt;
+  }
   context.evaluate(element);
   const geom::TriangleMesh& facets = **SolidOf(element)->Facets();
   if (name == "centroid") return Value::OfPoint(geom::Centroid(facets));
   if (name == "closed") return Value::Boolean(geom::IsClosed(facets));
   if (name == "genus") return Value::Number(geom::Genus(facets));
   if (name == "shells") return Value::Number(geom::ShellCount(facets));
+  if (name == "self_intersects") return Value::Boolean(geom::HasSelfIntersection(facets));
   std::vector<std::uint32_t> surfaces = facets.surfaces;
   std::sort(surfaces.begin(), surfaces.end());
   const auto end = std::unique(surfaces.begin(), surfaces.end());
@@ -316,7 +321,7 @@ std::vector<std::string> OwnMembers(const Element& element) {
   if (std::holds_alternative<model::Point>(element.geometry)) return {"position", "x", "y", "z"};
   if (const geom::Curve* curve = CurveOf(element)) return CurveMembers(*curve);
   if (SurfaceOf(element)) return {"point(u, v)", "normal(u, v)"};
-  if (SolidOf(element)) return {"centroid", "closed", "genus", "faces", "shells"};
+  if (SolidOf(element)) return {std::begin(kSolidMembers), std::end(kSolidMembers)};
   if (RegionOf(element)) return {"perimeter", "centroid", "parts", "holes", "plane"};
   if (std::holds_alternative<model::TextPtr>(element.geometry)) {
     return {"text", "height", "plane", "position", "x", "y", "z"};

@@ -130,50 +130,63 @@ CommandResult Sweep(const State& state, const Answers& answers) {
 }
 
 CommandResult Loft(const State& state, const Answers& answers) {
-  Curves outlines;
+  std::vector<geom::Face> faces;
   for (std::size_t i = 0; i < answers.chosen.size(); ++i) {
-    const auto outline = OutlineOfElement(*answers.chosen[i], "a loft", AtChosen(i));
-    if (!outline) return Fail(outline.error());
-    if (outline->size() > 1) {
+    const model::Element& element = *answers.chosen[i];
+    auto face = OutlineOfElement(element, "a loft", AtChosen(i));
+    if (!face) return Fail(face.error());
+    const auto* region = std::get_if<model::RegionPtr>(&element.geometry);
+    if (region && (*region)->parts.size() != 1) {
       return Fail({.code = Code::kWrongElement,
-                   .message = "a loft goes through outlines without holes",
+                   .message = fmt::format("a loft goes through faces of one part, and {} has {}",
+                                          NameForMessage(element), (*region)->parts.size()),
                    .where = AtChosen(i)});
     }
-    outlines.push_back(outline->front());
+    faces.push_back(*std::move(face));
+    if (faces.back().size() == faces.front().size()) continue;
+    return Fail({.code = Code::kWrongCount,
+                 .message = fmt::format("a loft goes through faces with equally many holes, and {} "
+                                        "has {}, not {}",
+                                        NameForMessage(element), faces.back().size() - 1,
+                                        faces.front().size() - 1),
+                 .where = AtChosen(i)});
   }
-  auto solid = SolidGeometry(geom::LoftMesh(outlines, ToleranceOf(state)), "a loft");
-  if (!solid) return Fail(solid.error());
-  return MakeFromChosen(state, answers, {*std::move(solid)});
+  auto solid = geom::LoftSolid(faces, ToleranceOf(state));
+  if (!solid) return Fail(FromGeom(solid.error(), "a loft"));
+  return MakeFromChosen(state, answers, {std::make_shared<const geom::Solid>(*std::move(solid))});
 }
 
-// The surfaces among the chosen, and the closed curves, which stand for faces.
+// The surfaces among the chosen, and the regions and closed curves, which stand for faces.
 struct Faces {
   std::vector<geom::Surface> surfaces;
-  Curves outlines;
+  std::vector<geom::Face> plane;
 };
-tl::expected<Faces, CommandError> FacesOf(const Answers& answers, std::string_view what,
-                                          bool outlines_too) {
+tl::expected<Faces, CommandError> FacesOf(const Answers& answers, std::string_view what) {
   Faces faces;
   for (std::size_t i = 0; i < answers.chosen.size(); ++i) {
     const model::Element& element = *answers.chosen[i];
-    const auto* curve = std::get_if<model::CurvePtr>(&element.geometry);
     if (const auto* surface = std::get_if<model::SurfacePtr>(&element.geometry)) {
       faces.surfaces.push_back(**surface);
-    } else if (outlines_too && curve && geom::IsClosed(**curve)) {
-      faces.outlines.push_back(**curve);
-    } else {
+      continue;
+    }
+    if (!std::holds_alternative<model::RegionPtr>(element.geometry) &&
+        !std::holds_alternative<model::CurvePtr>(element.geometry)) {
       return Fail({.code = Code::kWrongElement,
-                   .message = fmt::format("{} is made from surfaces, and this is {}", what,
-                                          NameForMessage(element)),
+                   .message = fmt::format("{} is made from surfaces, regions and closed outlines, "
+                                          "and this is {}",
+                                          what, NameForMessage(element)),
                    .where = AtChosen(i)});
     }
+    auto outline = OutlineOfElement(element, what, AtChosen(i));
+    if (!outline) return Fail(outline.error());
+    faces.plane.push_back(*std::move(outline));
   }
   return faces;
 }
 
 CommandResult Thicken(const State& state, const Answers& answers) {
   if (auto error = TooFar(answers)) return Fail(*error);
-  const auto faces = FacesOf(answers, "a thickened solid", false);
+  const auto faces = FacesOf(answers, "a thickened solid");
   if (!faces) return Fail(faces.error());
   const double thickness_m = answers.Number("thickness");
   if (!(thickness_m > geom::kCoincident_m)) {
@@ -186,27 +199,28 @@ CommandResult Thicken(const State& state, const Answers& answers) {
   }
   const std::string side = answers.Text("side", "outward");
   const double outward = side == "outward" ? 1 : side == "inward" ? 0 : 0.5;
-  auto solid = SolidGeometry(geom::ThickenedMesh(faces->surfaces, outward * thickness_m,
-                                                 (1 - outward) * thickness_m, ToleranceOf(state)),
-                             "a thickened solid", AtKey("thickness"));
+  auto solid =
+      SolidGeometry(geom::ThickenedMesh(faces->surfaces, faces->plane, outward * thickness_m,
+                                        (1 - outward) * thickness_m, ToleranceOf(state)),
+                    "a thickened solid", AtKey("thickness"));
   if (!solid) return Fail(solid.error());
   return MakeFromChosen(state, answers, {*std::move(solid)});
 }
 
 CommandResult FromSurfaces(const State& state, const Answers& answers) {
-  const auto faces = FacesOf(answers, "a solid", true);
+  const auto faces = FacesOf(answers, "a solid");
   if (!faces) return Fail(faces.error());
-  auto solid = SolidGeometry(
-      geom::EnclosedMesh(faces->surfaces, faces->outlines, ToleranceOf(state)), "a solid");
+  auto solid = SolidGeometry(geom::EnclosedMesh(faces->surfaces, faces->plane, ToleranceOf(state)),
+                             "a solid");
   if (!solid) return Fail(solid.error());
   return MakeFromChosen(state, answers, {*std::move(solid)});
 }
 
-constexpr Prompt kOutlinePrompts[] = {{"outline, or a point off everything to accept"}};
-constexpr Prompt kSurfacePrompts[] = {{"surface, or a point off everything to accept"}};
+constexpr Prompt kOutlinePrompts[] = {{"outline or region, or a point off everything to accept"}};
+constexpr Prompt kSurfacePrompts[] = {{"surface or region, or a point off everything to accept"}};
 
 constexpr Key kSweepKeys[] = {
-    {"profile", Type::kElement, "the closed outline that is carried", {}, {}, -1, true},
+    {"profile", Type::kElement, "the closed outline or region that is carried", {}, {}, -1, true},
     {"path", Type::kElement, "the curve along which it is carried", {}, {}, -1, true},
     {"at",
      Type::kPoint,
@@ -285,8 +299,9 @@ constexpr Example kFromSurfacesExamples[] = {
 constexpr Command kCommands[] = {
     {.words = "construct solid projection",
      .family = "construct",
-     .summary = "Projects a closed outline along a straight line into a solid: a plan into a "
-                "pier, a moulding's section into a length of it.",
+     .summary =
+         "Projects a closed outline or region along a straight line into a solid: a plan into a "
+         "pier, a moulding's section into a length of it.",
      .manner = Manner::kPicks,
      .prompts = kOutlinePrompts,
      .keys = kProjectionKeys,
@@ -294,8 +309,9 @@ constexpr Command kCommands[] = {
      .execute = Projection},
     {.words = "construct solid revolution",
      .family = "construct",
-     .summary = "Turns a closed outline about an axis in its plane into a solid: a column, a "
-                "baluster, a dome's shell.",
+     .summary =
+         "Turns a closed outline or region about an axis in its plane into a solid: a column, a "
+         "baluster, a dome's shell.",
      .manner = Manner::kPicks,
      .prompts = kOutlinePrompts,
      .keys = kRevolutionKeys,
@@ -303,15 +319,16 @@ constexpr Command kCommands[] = {
      .execute = Revolution},
     {.words = "construct solid sweep",
      .family = "construct",
-     .summary = "Carries a closed outline along a path without twist, mitred at its corners: a "
-                "cornice, an archivolt, a rail.",
+     .summary =
+         "Carries a closed outline or region along a path without twist, mitred at its corners: a "
+         "cornice, an archivolt, a rail.",
      .keys = kSweepKeys,
      .examples = kSweepExamples,
      .execute = Sweep},
     {.words = "construct solid loft",
      .family = "construct",
-     .summary = "Joins a row of closed outlines, in the order in which they are chosen, into a "
-                "solid.",
+     .summary = "Joins a row of closed outlines or regions, in the order in which they are chosen, "
+                "into a solid.",
      .manner = Manner::kPicks,
      .prompts = kOutlinePrompts,
      .least = 2,
@@ -320,7 +337,8 @@ constexpr Command kCommands[] = {
      .execute = Loft},
     {.words = "construct solid thicken",
      .family = "construct",
-     .summary = "Gives surfaces a thickness: a vault, a shell of a dome. Those that meet are "
+     .summary = "Gives surfaces and plane faces a thickness: a vault, a shell of a dome. Those "
+                "that meet are "
                 "thickened as one.",
      .manner = Manner::kPicks,
      .prompts = kSurfacePrompts,
@@ -329,7 +347,8 @@ constexpr Command kCommands[] = {
      .execute = Thicken},
     {.words = "construct solid from surfaces",
      .family = "construct",
-     .summary = "Fills what surfaces, and closed plane outlines as faces, enclose together.",
+     .summary =
+         "Fills what surfaces, regions, and closed plane outlines as faces, enclose together.",
      .manner = Manner::kPicks,
      .prompts = kSurfacePrompts,
      .keys = kLoftKeys,

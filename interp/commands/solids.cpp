@@ -60,6 +60,12 @@ tl::expected<geom::Curve, CommandError> CurveOfElement(const model::Element& ele
 tl::expected<std::vector<geom::Curve>, CommandError> OutlineOfElement(const model::Element& element,
                                                                       std::string_view what,
                                                                       Where where) {
+  if (const auto* region = std::get_if<model::RegionPtr>(&element.geometry)) {
+    std::vector<geom::Curve> outlines;
+    geom::ForEachOutline(**region,
+                         [&](const geom::Curve& curve, bool) { outlines.push_back(curve); });
+    return outlines;
+  }
   auto curve = CurveOfElement(element, what, where);
   if (!curve) return Fail(curve.error());
   if (!geom::IsClosed(*curve)) {

@@ -21,7 +21,8 @@ tl::expected<std::vector<model::ElementPtr>, CommandError> ElementsOf(const mode
 // The curve that an element is; kWrongElement for another.
 tl::expected<geom::Curve, CommandError> CurveOfElement(const model::Element& element,
                                                        std::string_view what, Where where);
-// The closed curves that bound the face an element stands for.
+// The closed curves that bound the face an element stands for: a region's outlines and holes, or a
+// closed curve itself. kWrongElement for another element, kNotClosed for an open curve.
 tl::expected<std::vector<geom::Curve>, CommandError> OutlineOfElement(const model::Element& element,
                                                                       std::string_view what,
                                                                       Where where);

@@ -165,14 +165,14 @@ Surface Barrel(double radius_m) {
 
 TEST(SolidShape, ThickenedSurfacesAreEvenlyThick) {
   const double half_ring = kPi / 2 * (3.3 * 3.3 - 3 * 3) * 5;
-  ExpectSolid(ThickenedMesh({Barrel(3)}, 0.3, 0, kFine), {half_ring, 100}, 1e-4);
+  ExpectSolid(ThickenedMesh({Barrel(3)}, {}, 0.3, 0, kFine), {half_ring, 100}, 1e-4);
   const double inner_ring = kPi / 2 * (3 * 3 - 2.7 * 2.7) * 5;
-  ExpectSolid(ThickenedMesh({Barrel(3)}, 0, 0.3, kFine), {inner_ring, 100}, 1e-4);
+  ExpectSolid(ThickenedMesh({Barrel(3)}, {}, 0, 0.3, kFine), {inner_ring, 100}, 1e-4);
   const Curve meridian = Arc{{{0, 0, 0}, Vec3::UnitX(), Vec3::UnitZ()}, 2, kPi / 2};
   const auto dome = Revolution(meridian, {0, 0, 0}, Vec3::UnitZ(), 2 * kPi);
   const double shell = 2 * kPi / 3 * (std::pow(2.25, 3) - std::pow(1.75, 3));
-  ExpectSolid(ThickenedMesh({*dome}, 0.25, 0.25, kFine), {shell, 60}, 1e-4);
-  const auto folded = ThickenedMesh({Barrel(1)}, 0, 1.5, kFine);
+  ExpectSolid(ThickenedMesh({*dome}, {}, 0.25, 0.25, kFine), {shell, 60}, 1e-4);
+  const auto folded = ThickenedMesh({Barrel(1)}, {}, 0, 1.5, kFine);
   ASSERT_FALSE(folded);
   EXPECT_EQ(folded.error().code, ErrorCode::kOutOfRange);
 }
@@ -181,7 +181,7 @@ TEST(SolidShape, SurfacesThatMeetAreThickenedAsOne) {
   const Polyline corner = {{{0, 0, 0}, {4, 0, 0}}, false}, turn = {{{4, 0, 0}, {4, 3, 0}}, false};
   const auto first = Extrusion(Curve(corner), {0, 0, 2}),
              second = Extrusion(Curve(turn), {0, 0, 2});
-  ExpectSolid(ThickenedMesh({*first, *second}, 0.25, 0.25, {}), {7 * 0.5 * 2, 40});
+  ExpectSolid(ThickenedMesh({*first, *second}, {}, 0.25, 0.25, {}), {7 * 0.5 * 2, 40});
 }
 
 TEST(SolidShape, SurfacesEncloseAVolumeThoughTheirFacetsDiffer) {
@@ -189,7 +189,8 @@ TEST(SolidShape, SurfacesEncloseAVolumeThoughTheirFacetsDiffer) {
   const auto side = Extrusion(base, {0, 0, 3});
   const Curve meridian = Arc{{{0, 0, 3}, Vec3::UnitX(), Vec3::UnitZ()}, 2, kPi / 2};
   const auto dome = Revolution(meridian, {0, 0, 0}, Vec3::UnitZ(), 2 * kPi);
-  ExpectSolid(EnclosedMesh({*side, *dome}, {base}, kFine), {12 * kPi + 16 * kPi / 3, 75}, 1e-4);
+  ExpectSolid(EnclosedMesh({*side, *dome}, {Face{base}}, kFine), {12 * kPi + 16 * kPi / 3, 75},
+              1e-4);
   const auto open = EnclosedMesh({*side, *dome}, {}, kFine);
   ASSERT_FALSE(open);
   EXPECT_EQ(open.error().code, ErrorCode::kNotClosed);

@@ -24,6 +24,16 @@ POLE = """define place pole
   place line xy=0,0,0 dl=lean*height,0,2*height
 }
 """
+SOLID = """define place beam
+  "A beam along a path."
+  size : length = 0.5m in 0.1m..0.6m "how thick"
+{
+  %s
+  create chain of=sides as path
+  place block xy=0,0,0 dl=size,size as profile
+  construct solid sweep profile=profile path=path
+}
+"""
 PLACED = "place dome cruciform bay=12m xy=0,0,0 as it\n"
 
 
@@ -151,6 +161,16 @@ class Soak(harness.ProgramTest):
         ran = self.soak(POLE.replace("{", '  detail : word = shell in shell, plan "how much"\n{', 1))
         self.assertEqual(ran.status, 1)
         self.assertIn("the plan symbol leaves the plane z = 0", ran.err)
+
+    def test_solid_that_crosses_itself(self):
+        ran = self.soak(SOLID % "place line xy=0,0,2 xy=9,0,2 xy=9,6,2 xy=5,6,2 xy=5,-6,2 as sides")
+        self.assertEqual(ran.status, 1)
+        self.assertIn("a solid intersects itself", ran.err)
+        self.assertEqual(ran.out, "35 settings of 1 elements and details: 1 failed\n")
+
+    def test_sound_solid(self):
+        ran = self.soak(SOLID % "place line xy=0,0,2 xy=9,0,2 xy=9,6,2 as sides")
+        self.assertEqual(ran.status, 0, ran.err)
 
     def test_same_seed_same_settings(self):
         facts = "place pole xy=0,0,0 as it\nassert it.height < 1m\n"
