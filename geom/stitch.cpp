@@ -62,11 +62,11 @@ class Stitcher {
     Stitched result;
     result.normals.resize(mesh_.positions.size());
     for (const auto& [key, normal] : normals_) {
-      const double sign = flipped_[key.second] ? -1 : 1;
+      const Vec3 outward = flipped_[key.second] ? Vec3(-normal) : normal;
       std::vector<Vec3>& at = result.normals[key.first];
       const bool known = std::any_of(
-          at.begin(), at.end(), [&](const Vec3& n) { return n.dot(sign * normal) > kSameNormal; });
-      if (!known) at.push_back(sign * normal);
+          at.begin(), at.end(), [&](const Vec3& n) { return n.dot(outward) > kSameNormal; });
+      if (!known) at.push_back(outward);
     }
     result.mesh = std::move(mesh_);
     return result;
