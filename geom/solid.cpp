@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "geom/boolean.h"
+#include "geom/solid_rounding.h"
 
 namespace tranos::geom {
 
@@ -42,6 +43,7 @@ Solid::Node::~Node() {
 }
 
 Result<Solid> Solid::FromMesh(TriangleMesh mesh) {
+  mesh = Tidied(std::move(mesh));
   if (!IsClosed(mesh)) {
     return tl::unexpected(Error{ErrorCode::kNotClosed, "the surface of the solid is open"});
   }

@@ -191,6 +191,19 @@ std::uint32_t PositionIndex::Of(const Vec3& p, std::vector<Vec3>* list) {
   return number;
 }
 
+TriangleMesh Tidied(TriangleMesh mesh) {
+  PositionIndex index;
+  std::vector<Vec3> positions;
+  std::vector<std::uint32_t> number;
+  number.reserve(mesh.positions.size());
+  for (const Vec3& p : mesh.positions) number.push_back(index.Of(p, &positions));
+  mesh.positions = std::move(positions);
+  const auto is_narrow = [&](const Corners& t) { return HasTwice(t) || IsLine(mesh, t); };
+  for (Corners& t : mesh.triangles) t = {number[t[0]], number[t[1]], number[t[2]]};
+  if (std::any_of(mesh.triangles.begin(), mesh.triangles.end(), is_narrow)) RemoveLines(&mesh);
+  return mesh;
+}
+
 Result<TriangleMesh> Rounded(const Arrangement& arrangement,
                              const std::vector<SurfacePiece>& pieces) {
   std::vector<bool> is_rounded;

@@ -34,6 +34,10 @@ class PositionIndex {
   std::unordered_multimap<Cell, std::uint32_t, Hash> numbers_;
 };
 
+// The same surface without what is too narrow to have two sides: corners nearer to one another than
+// kCoincident_m are merged, triangles narrower than that taken out. A closed one stays closed.
+TriangleMesh Tidied(TriangleMesh mesh);
+
 // The mesh of the pieces. Corners that become one point are merged, triangles that become lines
 // taken out; where rounding has made facets cross, by less than a billionth of a metre, they are
 // cut there. kDegenerate if that does not come to an end.

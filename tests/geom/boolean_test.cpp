@@ -122,6 +122,31 @@ TEST(Boolean, ATurnedSolidIsTheTurnedResult) {
   EXPECT_NEAR(VolumeOf(Solid::Difference(a, {b}).Transformed(mirror)), 5.5, 1e-12);
 }
 
+// Two of the box's sides meet its top in a line that runs on beyond it, so that the facets between
+// have no width.
+TEST(Boolean, FacetsWithoutWidthDoNoHarm) {
+  TriangleMesh box = FacetsOf(Unit(0, 0, 0));
+  const std::array<std::uint32_t, 3> first = box.triangles[0];
+  const Vec3 middle = 0.5 * (box.positions[first[0]] + box.positions[first[1]]);
+  box.positions.push_back(middle);
+  const auto added = static_cast<std::uint32_t>(box.positions.size() - 1);
+  box.triangles[0] = {added, first[1], first[2]};
+  box.triangles.push_back({first[0], added, first[2]});
+  box.triangles.push_back({first[0], first[1], added});
+  box.surfaces.insert(box.surfaces.end(), {box.surfaces[0], box.surfaces[0]});
+  ASSERT_TRUE(IsClosed(box));
+  const Solid solid = *Solid::FromMesh(box);
+  for (const Vec3& corner : {Vec3(.5, .5, .5), Vec3(-.5, -.5, -.5), Vec3(.5, -.5, .25)}) {
+    const TriangleMesh mesh =
+        FacetsOf(Solid::Union({solid, Unit(corner.x(), corner.y(), corner.z())}));
+    ExpectSound(mesh);
+    EXPECT_NEAR(Volume(mesh),
+                2 - VolumeOf(Solid::Intersection(
+                        {Unit(0, 0, 0), Unit(corner.x(), corner.y(), corner.z())})),
+                1e-9);
+  }
+}
+
 // Boxes on a grid of quarters lie flush and touch as often as not; cylinders and balls on the same
 // grid touch them in lines and points, and share axes.
 struct Shape {
