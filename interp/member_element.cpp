@@ -373,6 +373,10 @@ Value Face(const CallContext& context, const ElementPtr& element, Arguments argu
       };
       place.frame.origin =
           place.frame.ToWorld({length_m(1, "the way along"), length_m(2, "the height"), 0});
+      // A place is not as long and as high as its face, and what stands there is neither.
+      std::erase_if(place.measures, [](const auto& measure) {
+        return measure.first == "length" || measure.first == "height";
+      });
     }
     return InterfaceValue(element, place);
   }
