@@ -6,6 +6,7 @@
 #include "output/gltf.h"
 #include "output/picture.h"
 #include "output/png.h"
+#include "output/stl.h"
 
 namespace tranos::output {
 namespace {
@@ -17,6 +18,7 @@ struct ModelFormat {
 };
 constexpr std::array kModelFormats = {
     ModelFormat{".glb", [](const model::Model& model) { return GlbOf(model, {}); }},
+    ModelFormat{".stl", StlOf},
 };
 struct PictureFormat {
   std::string_view extension;

@@ -73,7 +73,8 @@ CommandResult Export(const State& state, const Answers& answers) {
                  .message = "the file's name is missing",
                  .help = "export \"church.glb\""});
   }
-  if (Extension(file) != "glb") return Fail(UnknownFormat(file, "glb"));
+  const std::string extension = Extension(file);
+  if (extension != "glb" && extension != "stl") return Fail(UnknownFormat(file, "glb, stl"));
   Fired fired;
   fired.edit.outputs.emplace_back(model::ExportRequest{state.model, file});
   return fired;
@@ -104,6 +105,7 @@ constexpr Example kRenderAllExamples[] = {{"place line xy=0,0,0 dl=3; render all
                                           {"render all size=0,480", "E0212"}};
 constexpr Example kExportExamples[] = {
     {"place block xy=0,0,0 xy=4,3,0; export \"hall.glb\"", "true"},
+    {"place slab length=4m width=3m height=2m xy=0,0,0; export \"hall.stl\"", "true"},
     {"export \"hall.doc\"", "E0705"}};
 constexpr Example kPrintExamples[] = {
     {"place line xy=0,0,0 dl=3; print \"it is {last.length} long\"", "last.length == 3m"},
@@ -129,7 +131,8 @@ constexpr Command kCommands[] = {
     {.words = "export",
      .family = "output",
      .summary =
-         "Writes the model as it stands into a file, whose extension chooses the format: glb.",
+         "Writes the model as it stands into a file, whose extension chooses the format: glb, or "
+         "stl for the faces alone.",
      .keys = kExportKeys,
      .string_key = "file",
      .examples = kExportExamples,
