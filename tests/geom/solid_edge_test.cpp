@@ -12,6 +12,7 @@ namespace {
 constexpr double kHeight_m = 3;
 // What prisms reach beyond what they change, and what rounding does.
 constexpr double kHair_m3 = 1e-4;
+constexpr double kChord_m = 1e-3;
 
 // The edge of a prism between two of its sides that form this angle in plan, seen from inside.
 struct Corner {
@@ -67,9 +68,10 @@ RC_GTEST_PROP(SolidEdge, IsRounded, (bool is_convex)) {
   const Corner corner = DrawCorner(is_convex, false);
   const double half_rad = 0.5 * corner.angle_rad, r = Within(0.1, 1) * std::tan(half_rad);
   const double taken = r * r * (1 / std::tan(half_rad) - (kPi / 2 - half_rad)) * kHeight_m;
-  const auto prism = FilletPrism(corner.edge, r, {1e-6, 0});
-  RC_ASSERT(std::abs(std::abs(VolumeAfter(corner, *prism) - Volume(corner.mesh)) - taken) <
-            kHair_m3);
+  const auto prism = FilletPrism(corner.edge, r, {kChord_m, 0});
+  const double changed = std::abs(VolumeAfter(corner, *prism) - Volume(corner.mesh));
+  const double round_m2 = r * (kPi - corner.angle_rad) * kHeight_m;
+  RC_ASSERT(std::abs(changed - taken) < kChord_m * round_m2 + kHair_m3);
 }
 
 TEST(SolidEdge, HasRoomUpToTheNextBorder) {
