@@ -144,8 +144,10 @@ Value Tan(const CallContext& context, Arguments a) {
   return Chain(x, tangent, 1 + tangent * tangent, model::kPlain);
 }
 
+// A ratio of two sides that are one length comes out beyond 1 by a rounding error as often as not.
 double UnitInterval(const Value& x, const char* of) {
-  if (std::abs(x.number()) <= 1) return x.number();
+  constexpr double kRounding = 1e-14;
+  if (std::abs(x.number()) <= 1 + kRounding) return std::clamp(x.number(), -1.0, 1.0);
   throw OpFailure{Code::kNotFinite,
                   std::string("a ") + of + " lies from -1 to 1, but this is " + Shown(x), "", "",
                   0};

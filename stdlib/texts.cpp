@@ -5,10 +5,11 @@ namespace tranos::stdlib {
 
 namespace {
 
-constexpr Text kFamilies[] = {
+// Not constexpr: the lengths of texts as long as these are more than a compiler counts to.
+const Text kFamilies[] = {
 #include "stdlib/families.inc"
 };
-constexpr Text kFacts[] = {
+const Text kFacts[] = {
 #include "stdlib/facts.inc"
 };
 
