@@ -15,14 +15,14 @@ tl::unexpected<Error> Degenerate(const char* detail, std::size_t part) {
 
 // Derivatives at the points with which the cubics between them have equal second derivatives: a
 // row for each point, `chords` from each to the next.
-Eigen::MatrixX3d SmoothDerivatives(const std::vector<Vec3>& points,
-                                   const std::vector<double>& chords, bool closed) {
-  const auto count = static_cast<Eigen::Index>(points.size());
+Eigen::MatrixXd SmoothDerivatives(const Eigen::MatrixXd& points, const std::vector<double>& chords,
+                                  bool closed) {
+  const Eigen::Index count = points.rows();
   Eigen::SparseMatrix<double> matrix(count, count);
-  Eigen::MatrixX3d right(count, 3);
+  Eigen::MatrixXd right(count, points.cols());
   std::vector<Eigen::Triplet<double>> entries;
-  const auto slope = [&](Eigen::Index i) -> Vec3 {
-    return (points[(i + 1) % count] - points[i]) / chords[i];
+  const auto slope = [&](Eigen::Index i) -> Eigen::RowVectorXd {
+    return (points.row((i + 1) % count) - points.row(i)) / chords[static_cast<std::size_t>(i)];
   };
   for (Eigen::Index i = 0; i < count; ++i) {
     if (!closed && (i == 0 || i + 1 == count)) {
@@ -78,38 +78,52 @@ Polyline RegularPolygon(const Frame& frame, double radius, int sides) {
   return polygon;
 }
 
+CubicRow CubicThrough(const Eigen::MatrixXd& points, const std::vector<double>& chords,
+                      bool closed) {
+  const Eigen::Index count = points.rows(), spans = closed ? count : count - 1;
+  const Eigen::MatrixXd derivatives = SmoothDerivatives(points, chords, closed);
+  const auto chord = [&](Eigen::Index i) { return chords[static_cast<std::size_t>(i)]; };
+  const auto after = [&](Eigen::Index i) -> Eigen::RowVectorXd {
+    return points.row(i) + chord(i) / 3 * derivatives.row(i);
+  };
+  const auto before_next = [&](Eigen::Index i) -> Eigen::RowVectorXd {
+    const Eigen::Index next = (i + 1) % count;
+    return points.row(next) - chord(i) / 3 * derivatives.row(next);
+  };
+  CubicRow cubic;
+  cubic.poles.resize(spans + 3, points.cols());
+  cubic.poles.row(0) = points.row(0);
+  cubic.poles.row(1) = after(0);
+  // Where three neighbouring knots meet in the blossom, one cubic reaches on into the next span.
+  for (Eigen::Index i = 0; i + 1 < spans; ++i) {
+    const Eigen::RowVectorXd a = after(i), b = before_next(i);
+    cubic.poles.row(i + 2) = a + (chord(i) + chord(i + 1)) / chord(i) * (b - a);
+  }
+  cubic.poles.row(spans + 1) = before_next(spans - 1);
+  cubic.poles.row(spans + 2) = points.row(spans % count);
+  cubic.knots = {0, 0, 0, 0};
+  for (const double length : chords) cubic.knots.push_back(cubic.knots.back() + length);
+  cubic.knots.insert(cubic.knots.end(), 3, cubic.knots.back());
+  return cubic;
+}
+
 Result<BsplineCurve> CurveThrough(const std::vector<Vec3>& points, bool closed) {
   const std::size_t count = points.size(), spans = closed ? count : count - 1;
   if (count < (closed ? 3u : 2u)) return Degenerate("it has too few points", count - 1);
-  std::vector<double> chords, knots = {0, 0, 0, 0};
+  std::vector<double> chords;
+  Eigen::MatrixXd rows(static_cast<Eigen::Index>(count), 3);
+  for (std::size_t i = 0; i < count; ++i) rows.row(static_cast<Eigen::Index>(i)) = points[i];
   for (std::size_t i = 0; i < spans; ++i) {
     chords.push_back((points[(i + 1) % count] - points[i]).norm());
     if (!(chords[i] > kCoincident_m)) {
       return Degenerate("two neighbouring points coincide", i + 1 == count ? i : i + 1);
     }
-    knots.push_back(knots.back() + chords[i]);
   }
-  const Eigen::MatrixX3d derivatives = SmoothDerivatives(points, chords, closed);
-  const auto after = [&](std::size_t i) -> Vec3 {
-    return points[i] + chords[i] / 3 * derivatives.row(static_cast<Eigen::Index>(i)).transpose();
-  };
-  const auto before_next = [&](std::size_t i) -> Vec3 {
-    const std::size_t next = (i + 1) % count;
-    return points[next] -
-           chords[i] / 3 * derivatives.row(static_cast<Eigen::Index>(next)).transpose();
-  };
+  CubicRow cubic = CubicThrough(rows, chords, closed);
   BsplineCurve curve;
   curve.degree = 3;
-  curve.poles = {points[0], after(0)};
-  // Where three neighbouring knots meet in the blossom, one cubic reaches on into the next span.
-  for (std::size_t i = 0; i + 1 < spans; ++i) {
-    const Vec3 a = after(i), b = before_next(i);
-    curve.poles.push_back(a + (chords[i] + chords[i + 1]) / chords[i] * (b - a));
-  }
-  curve.poles.push_back(before_next(spans - 1));
-  curve.poles.push_back(points[spans % count]);
-  knots.insert(knots.end(), 3, knots.back());
-  curve.knots = std::move(knots);
+  curve.knots = std::move(cubic.knots);
+  for (const auto& pole : cubic.poles.rowwise()) curve.poles.emplace_back(pole.transpose());
   if (!Check(curve)) return Degenerate("its points are too unevenly spaced", count - 1);
   return curve;
 }

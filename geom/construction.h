@@ -17,6 +17,13 @@ Polyline RegularPolygon(const Frame& frame, double radius, int sides);
 // last point on to the first (which is not repeated). kDegenerate with the index of a point that
 // lies on the one before, or for fewer than two points (three, of a closed one).
 Result<BsplineCurve> CurveThrough(const std::vector<Vec3>& points, bool closed);
+// The same through points of any dimension, a row each: `chords` from each to the next one.
+struct CubicRow {
+  std::vector<double> knots;
+  Eigen::MatrixXd poles;
+};
+CubicRow CubicThrough(const Eigen::MatrixXd& points, const std::vector<double>& chords,
+                      bool closed);
 // The B-spline with these poles and uniform knots, from the first pole to the last, or closed
 // (smooth all round). The degree is lowered to one less than the number of poles. kDegenerate for
 // fewer than two poles (three, of a closed one); kOutOfRange for a degree below 1 or above 24.

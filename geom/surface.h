@@ -38,6 +38,14 @@ Result<Surface> Extrusion(const Curve& profile, const Vec3& direction);
 Result<Surface> Revolution(const Curve& profile, const Vec3& axis_point, const Vec3& axis_direction,
                            double angle_rad);
 Result<Surface> Ruled(const Curve& from, const Curve& to);
+// Smoothly through all the profiles, two or more, in their order: of second degree continuity, and
+// straight between two. Each is turned round where it then lies nearer to the one before; an error
+// has its index.
+Result<Surface> LoftSurface(const std::vector<Curve>& profiles);
+// Round the path, u round it from its right, seen along it with `up` above. Exact on lines, mitred
+// where they meet, and on arcs that go on smoothly; other paths are followed by chords of the
+// tolerance. kOutOfRange where the path turns too tightly.
+Result<Surface> Tube(const Curve& path, double radius_m, const Vec3& up, const Tolerance&);
 
 // Whether the surface is sound: numbers finite, counts, degrees and knots fitting, weights
 // positive, a patch's corners meeting. Of a surface that is not, measures are zero and boxes empty.

@@ -50,4 +50,8 @@ std::vector<double> UnitedBreaks(const std::vector<double>& a, const std::vector
 // The curve cut at these natural parameters, which include its own breaks.
 std::vector<BezierSpan> SpansBetween(const BsplineCurve&, const std::vector<double>& breaks);
 
+// The curves as B-splines with one degree and the same knots; those of equal natural parameters
+// belong together.
+std::vector<BsplineCurve> MadeAlike(const std::vector<Curve>& curves);
+
 }  // namespace tranos::geom

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Surfaces that a curve makes when it is moved: extruded, turned, or joined to another by lines.
+#include <algorithm>
 #include <cmath>
 
 #include "geom/arc.h"
@@ -53,6 +54,23 @@ BsplineCurve Refined(const BsplineCurve& curve, int degree, const std::vector<do
 
 }  // namespace
 
+std::vector<BsplineCurve> MadeAlike(const std::vector<Curve>& curves) {
+  std::vector<BsplineCurve> alike;
+  for (const Curve& curve : curves) alike.push_back(ToBspline(curve));
+  const bool are_alike = std::all_of(alike.begin(), alike.end(), [&](const BsplineCurve& curve) {
+    return curve.degree == alike[0].degree && curve.knots == alike[0].knots;
+  });
+  if (are_alike) return alike;
+  std::vector<double> breaks = BreaksOf(alike[0]);
+  int degree = 0;
+  for (const BsplineCurve& curve : alike) {
+    breaks = UnitedBreaks(breaks, BreaksOf(curve));
+    degree = std::max(degree, curve.degree);
+  }
+  for (BsplineCurve& curve : alike) curve = Refined(curve, degree, breaks);
+  return alike;
+}
+
 Result<Surface> Extrusion(const Curve& profile, const Vec3& direction) {
   if (auto checked = Check(profile); !checked) return tl::unexpected(checked.error());
   if (!direction.allFinite() || !(direction.norm() > 0)) {
@@ -75,11 +93,8 @@ Result<Surface> Ruled(const Curve& from, const Curve& to) {
     }
   }
   if (!(Length(from) > 0) && !(Length(to) > 0)) return Degenerate("neither curve has a length");
-  const BsplineCurve a = ToBspline(from), b = ToBspline(to);
-  if (a.degree == b.degree && a.knots == b.knots) return Surface(Rulings(a, b));
-  const std::vector<double> breaks = UnitedBreaks(BreaksOf(a), BreaksOf(b));
-  const int degree = std::max(a.degree, b.degree);
-  return Surface(Rulings(Refined(a, degree, breaks), Refined(b, degree, breaks)));
+  const std::vector<BsplineCurve> alike = MadeAlike({from, to});
+  return Surface(Rulings(alike[0], alike[1]));
 }
 
 Result<Surface> Revolution(const Curve& profile, const Vec3& axis_point, const Vec3& axis_direction,

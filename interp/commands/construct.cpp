@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// construct surface: from edges, by projection, by revolution, ruled.
+// construct surface: from edges, by projection, by revolution, ruled, lofted, round a path.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -7,6 +7,7 @@
 #include "interp/commands/construction.h"
 #include "interp/commands/families.h"
 #include "interp/commands/firing.h"
+#include "interp/commands/range.h"
 
 namespace tranos::interp {
 
@@ -76,8 +77,48 @@ CommandResult Ruled(const State& state, const Answers& answers) {
   return MakeFromChosen(state, answers, {SurfaceGeometry(std::move(*surface))});
 }
 
+CommandResult Loft(const State& state, const Answers& answers) {
+  const auto curves = CurvesOf(answers, "a loft");
+  if (!curves) return Fail(curves.error());
+  auto surface = geom::LoftSurface(*curves);
+  if (!surface) return Fail(FromGeom(surface.error(), "a loft"));
+  return MakeFromChosen(state, answers, {SurfaceGeometry(std::move(*surface))});
+}
+
+CommandResult Tube(const State& state, const Answers& answers) {
+  if (auto error = TooFar(answers)) return Fail(*error);
+  const model::Settings& settings = *state.drawing.settings;
+  const double radius_m = answers.Number("radius");
+  if (!(radius_m > geom::kCoincident_m)) {
+    return Fail({.code = Code::kOutOfRange,
+                 .message = fmt::format("`radius` is {}, and must be above zero",
+                                        InWords(radius_m, settings)),
+                 .label = "above 0 and at most 1e9 m",
+                 .where = AtKey("radius")});
+  }
+  const auto curves = CurvesOf(answers, "a tube");
+  if (!curves) return Fail(curves.error());
+  std::vector<model::Geometry> surfaces;
+  for (std::size_t i = 0; i < curves->size(); ++i) {
+    const auto of_radius = [&](double r) {
+      return geom::Tube((*curves)[i], r, settings.plane.z(), settings.tolerance);
+    };
+    auto surface = of_radius(radius_m);
+    if (!surface && surface.error().code == geom::ErrorCode::kOutOfRange) {
+      CommandError error = FromGeom(surface.error(), "a tube", AtKey("radius"));
+      error.label = RangeInWords(
+          LargestThatWorks(radius_m, [&](double r) { return of_radius(r).has_value(); }), settings);
+      return Fail(error);
+    }
+    if (!surface) return Fail(FromGeom(surface.error(), "a tube", AtChosen(i)));
+    surfaces.push_back(SurfaceGeometry(std::move(*surface)));
+  }
+  return MakeFromChosen(state, answers, std::move(surfaces));
+}
+
 constexpr Prompt kEdgePrompts[] = {{"edge, or a point off everything to accept"}};
 constexpr Prompt kProfilePrompts[] = {{"profile, or a point off everything to accept"}};
+constexpr Prompt kPathPrompts[] = {{"path, or a point off everything to accept"}};
 constexpr Prompt kRailPrompts[] = {{"curve, or a point off everything to accept"}};
 
 constexpr Key kEdgeKeys[] = {kOf, kKeep};
@@ -123,6 +164,24 @@ constexpr Example kRuledExamples[] = {
     {"place point xy=0,0,0 as a; place line xy=0,3,0 dl=4 as b; construct surface ruled of=[a, b]",
      "E0410"}};
 
+constexpr Key kTubeKeys[] = {
+    kOf, kKeep, {"radius", Type::kLength, "of the tube", {}, {}, -1, true}};
+constexpr Example kLoftExamples[] = {
+    {"place line xy=0,0,0 dl=4 as a; place line xy=0,2,0 dl=4 as b\n"
+     "place line xy=4,5,0 dl=-4 as c; construct surface loft of=[a, b, c] keep=true",
+     "last.area within 20m2 +- 0.000001m2"},
+    {"place circle xy=0,0,0 radius=2 as a; place circle xy=0,0,3 radius=2 as b\n"
+     "construct surface loft of=[a, b]",
+     "last.area within 37.699112m2 +- 0.000001m2"},
+    {"place point xy=0,0,0 as a; place line xy=0,3,0 dl=4 as b; construct surface loft of=[a, b]",
+     "E0410"}};
+constexpr Example kTubeExamples[] = {
+    {"place line xy=0,0,0 dl=4 as rail; construct surface tube of=rail radius=0.5 keep=true",
+     "last.area within 12.566371m2 +- 0.000001m2"},
+    {"place circle xy=0,0,0 radius=2 as ring; construct surface tube of=ring radius=0.5",
+     "last.area within 39.478418m2 +- 0.000001m2"},
+    {"place circle xy=0,0,0 radius=2 as ring; construct surface tube of=ring radius=2", "E0212"}};
+
 constexpr Command kCommands[] = {
     {.words = "construct surface edge",
      .family = "construct",
@@ -164,6 +223,24 @@ constexpr Command kCommands[] = {
      .keys = kEdgeKeys,
      .examples = kRuledExamples,
      .execute = Ruled},
+    {.words = "construct surface loft",
+     .family = "construct",
+     .summary = "Runs smoothly through a row of profiles, in the order in which they are chosen: a "
+                "vault that widens, a ship's hull.",
+     .manner = Manner::kPicks,
+     .prompts = kProfilePrompts,
+     .least = 2,
+     .keys = kEdgeKeys,
+     .examples = kLoftExamples,
+     .execute = Loft},
+    {.words = "construct surface tube",
+     .family = "construct",
+     .summary = "Carries a circle along a path, mitred at corners: a rail, a pipe, a rib.",
+     .manner = Manner::kPicks,
+     .prompts = kPathPrompts,
+     .keys = kTubeKeys,
+     .examples = kTubeExamples,
+     .execute = Tube},
 };
 
 }  // namespace

@@ -103,7 +103,9 @@ CommandResult ApplyTool(const State& state, const Answers& answers, const Tool& 
   for (const std::string_view key : {tool.key, std::string_view("second")}) {
     if (answers.Has(key) && answers.Number(key) <= geom::kCoincident_m) {
       return Fail({.code = Code::kOutOfRange,
-                   .message = fmt::format("`{}` is above zero", key),
+                   .message = fmt::format("`{}` is {}, and must be above zero", key,
+                                          InWords(answers.Number(key), *state.drawing.settings)),
+                   .label = "above 0",
                    .where = AtKey(key)});
     }
   }

@@ -19,8 +19,6 @@ constexpr Later Row(std::string_view words, std::string_view family, std::string
 
 constexpr Later kLater[] = {
     Row("place dimension", "place", "A measure between two points, with its number."),
-    Row("construct surface tube", "construct", "A tube of a radius along a path."),
-    Row("construct surface loft", "construct", "A surface through a row of profiles."),
     Row("construct facade", "construct", "A vertical plane for drawing through the photograph."),
     Row("construct orthophoto", "construct", "The photograph of a facade, seen squarely."),
     Row("construct section", "construct", "A drawing of the model cut by a plane."),

@@ -9,6 +9,7 @@
 #include "geom/swept_solid.h"
 #include "geom/wall.h"
 #include "interp/commands/families.h"
+#include "interp/commands/range.h"
 #include "interp/commands/solids.h"
 
 namespace tranos::interp {
@@ -84,15 +85,22 @@ CommandError TooThick(const State& state, const WallShape& wall, int part) {
   const auto k = static_cast<std::size_t>(std::max(part, 0));
   const double length_m = (wall.line[(k + 1) % wall.line.size()] - wall.line[k]).norm();
   const model::Settings& settings = *state.drawing.settings;
-  return {.code = Code::kOutOfRange,
-          .message = fmt::format("a wall {} thick has no room on a part {} long",
-                                 InWords(wall.left_m + wall.right_m, settings),
-                                 InWords(length_m, settings)),
-          .label = fmt::format("less, for part {}", k + 1),
-          .help =
-              "a thinner wall, or fewer corners; at an open end a part may be as short as the "
-              "thickness",
-          .where = AtKey("thickness")};
+  const double thickness_m = wall.left_m + wall.right_m;
+  const double largest_m = LargestThatWorks(thickness_m, [&](double tried_m) {
+    WallShape thinner = wall;
+    thinner.left_m *= tried_m / thickness_m;
+    thinner.right_m *= tried_m / thickness_m;
+    return geom::FacesOf(thinner).has_value();
+  });
+  return {
+      .code = Code::kOutOfRange,
+      .message = fmt::format("a wall {} thick has no room on part {}, which is {} long",
+                             InWords(thickness_m, settings), k + 1, InWords(length_m, settings)),
+      .label = RangeInWords(largest_m, settings),
+      .help =
+          "a thinner wall, or fewer corners; at an open end a part may be as short as the "
+          "thickness",
+      .where = AtKey("thickness")};
 }
 
 // An opening stands for a hole through the part whose faces it lies nearest to.
