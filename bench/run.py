@@ -268,6 +268,14 @@ def m3_stl(program="FreeCAD"):
     return solid_bench("colonnade", "M3 to STL", 0.5, program, export=['export "colonnade.stl"'])
 
 
+def church():
+    elements = FOLDER / "elements"
+    elements.mkdir(exist_ok=True)
+    shutil.copy(ROOT / "scripts" / "elements" / "church.trn", elements)
+    return Bench("church", "Aghios Nikolaos Tranos, from text to GLB",
+                 tranos("run", without_picture("tranos_church.trn"), "-o", "output"), seconds=3)
+
+
 def m1_freecad():
     return m1("FreeCAD")
 
@@ -309,7 +317,7 @@ def diff():
 BENCHES: dict[str, Callable[[], Bench]] = {
     make.__name__: make
     for make in (start, points, points_lua, points_glb, loop, dome, picture, m1, m1_freecad,
-                 m1_blender, m2, m2_freecad, m2_blender, m3, m3_stl, m3_stl_blender, traces,
+                 m1_blender, m2, m2_freecad, m2_blender, m3, m3_stl, m3_stl_blender, church, traces,
                  replay, diff)}
 
 

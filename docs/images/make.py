@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Makes the documents' pictures: runs scripts and halves what they render.
 
-usage: docs/images/make.py TRANOS [SCRIPT.trn...]    (without scripts: all of scripts/)
+usage: docs/images/make.py TRANOS [SCRIPT.trn...]    (without scripts: those that have one)
 """
 import pathlib
 import struct
@@ -85,7 +85,8 @@ def write_png(lines):
 
 
 def main(tranos, *scripts):
-    for script in map(pathlib.Path, scripts or sorted(SCRIPTS.glob("*.trn"))):
+    shown = [path for path in sorted(SCRIPTS.glob("*.trn")) if (HERE / (path.stem + ".png")).exists()]
+    for script in map(pathlib.Path, scripts or shown):
         with tempfile.TemporaryDirectory() as folder:
             subprocess.run([tranos, "run", script, "-o", folder], check=True, stdout=subprocess.DEVNULL)
             picture = pathlib.Path(folder, script.stem + "-1.png").read_bytes()
