@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "geom/arrangement.h"
 
+// The corners of cuts that cross are few.
+#define CGAL_NO_CDT_2_WARNING
 #include <CGAL/Constrained_triangulation_2.h>
 #include <CGAL/Triangulation_vertex_base_with_info_2.h>
 
@@ -165,7 +167,7 @@ struct Arrangement::Exact {
   // Facets that share an edge of their mesh and lie in one plane.
   void FindPlanes();
   void Cut(bool within_meshes);
-  void CutPlane(const std::vector<std::uint32_t>& facets, std::span<const Crossing> crossings);
+  void CutPlane(const std::vector<std::uint32_t>& facets, std::span<const FacetCrossing> crossings);
   void Keep(const Corners& piece, std::span<const PieceLabel> of) {
     pieces.push_back(
         {piece, static_cast<std::uint32_t>(labels.size()), static_cast<std::uint32_t>(of.size())});
@@ -221,7 +223,7 @@ void Arrangement::Exact::Cut(bool within_meshes) {
   CrossingFinder finder(soup, planes, &corners);
   UnionFind clusters(soup.facets.size());
   std::vector<bool> is_cut(soup.facets.size());
-  std::vector<Crossing> crossings;
+  std::vector<FacetCrossing> crossings;
   ForEachNearPair(soup, within_meshes, [&](std::uint32_t s, std::uint32_t t) {
     std::uint32_t from = kNoCorner, to = kNoCorner;
     const auto meeting = finder.Meet(s, t, &from, &to);
@@ -250,9 +252,10 @@ void Arrangement::Exact::Cut(bool within_meshes) {
     return std::pair(clusters.Root(a), a) < std::pair(clusters.Root(b), b);
   };
   std::sort(cut.begin(), cut.end(), by_cluster);
-  std::stable_sort(crossings.begin(), crossings.end(), [&](const Crossing& a, const Crossing& b) {
-    return clusters.Root(a.facet) < clusters.Root(b.facet);
-  });
+  std::stable_sort(crossings.begin(), crossings.end(),
+                   [&](const FacetCrossing& a, const FacetCrossing& b) {
+                     return clusters.Root(a.facet) < clusters.Root(b.facet);
+                   });
   std::size_t crossing = 0;
   for (std::size_t i = 0; i < cut.size();) {
     const std::uint32_t root = clusters.Root(cut[i]);
@@ -267,7 +270,7 @@ void Arrangement::Exact::Cut(bool within_meshes) {
 }
 
 void Arrangement::Exact::CutPlane(const std::vector<std::uint32_t>& facets,
-                                  std::span<const Crossing> crossings) {
+                                  std::span<const FacetCrossing> crossings) {
   const Triangle first = TriangleOf(soup, facets[0]);
   const Projection projection = ProjectionOf(first);
   PlaneCuts cuts(corners, projection);
@@ -275,7 +278,7 @@ void Arrangement::Exact::CutPlane(const std::vector<std::uint32_t>& facets,
     const Corners& c = soup.facets[f].corners;
     for (int i = 0; i < 3; ++i) cuts.Add(c[i], c[(i + 1) % 3]);
   }
-  for (const Crossing& crossing : crossings) {
+  for (const FacetCrossing& crossing : crossings) {
     if (crossing.from == crossing.to) {
       cuts.Add(crossing.from);
     } else {

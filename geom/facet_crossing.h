@@ -61,7 +61,7 @@ void ForEachNearPair(const Soup& soup, bool within_meshes, Visit&& visit) {
 }
 
 // What two facets have in common where they cross: a point, or a segment of a line.
-struct Crossing {
+struct FacetCrossing {
   std::uint32_t facet, from, to;
 };
 
