@@ -156,6 +156,8 @@ void AddLibraryVerbs(CLI::App* app, Choices* choices, int* status) {
       ->type_name("N")
       ->check(Quiet(CLI::Range(0, 1000000)))
       ->capture_default_str();
+  verb->add_flag("!--no-corners", soak.corners, "leaves out the ends of the ranges");
+  verb->add_flag("--crossings", soak.crossings, "looks for solids that cross themselves, too");
   verb->add_option("--library", soak.folder,
                    "the library's folder, read now; as built, if not given")
       ->type_name("DIR")

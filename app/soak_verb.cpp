@@ -93,7 +93,7 @@ std::string FacetProblem(const model::Model& model, bool crossings_too) {
 
 // What is wrong with the element placed by this line; "" if nothing is.
 std::string ProblemOf(const ElementLibrary& elements, const Job& job, const std::string& line,
-                      bool is_standard) {
+                      bool crossings_too) {
   interp::BindOptions bind;
   bind.library = elements.library;
   const std::string script = ScriptFor(elements, *job.element, line);
@@ -108,7 +108,7 @@ std::string ProblemOf(const ElementLibrary& elements, const Job& job, const std:
   }
   const model::Model& model = result.outcome.state.model;
   const std::string problem =
-      job.detail == "plan" ? PlanProblem(model) : FacetProblem(model, is_standard);
+      job.detail == "plan" ? PlanProblem(model) : FacetProblem(model, crossings_too);
   return problem.empty() ? "" : problem + "\n";
 }
 
@@ -118,17 +118,20 @@ std::uint64_t SeedOf(const Definition& element, std::uint64_t seed) {
 }
 
 void Do(const ElementLibrary& elements, Job* job, const SoakOptions& options) {
-  std::vector<std::vector<Pick>> settings = CornersOf(*job->element);
+  const std::size_t parameters = job->element->parameters.size();
+  std::vector<std::vector<Pick>> settings = {std::vector<Pick>(parameters, Pick::kStandard)};
+  if (options.corners) settings = CornersOf(*job->element);
   settings.insert(settings.end(), static_cast<std::size_t>(options.settings),
-                  std::vector<Pick>(job->element->parameters.size(), Pick::kRandom));
+                  std::vector<Pick>(parameters, Pick::kRandom));
   Draws draws(SeedOf(*job->element, options.seed));
   for (const std::vector<Pick>& picks : settings) {
     ++job->settings;
     const auto line = PlacementOf(*job->element, picks, job->detail, &draws);
-    const bool is_standard =
+    const bool crossings_too =
+        options.crossings &&
         std::all_of(picks.begin(), picks.end(), [](Pick pick) { return pick == Pick::kStandard; });
     const std::string problem =
-        line ? ProblemOf(elements, *job, *line, is_standard) : line.error() + "\n";
+        line ? ProblemOf(elements, *job, *line, crossings_too) : line.error() + "\n";
     if (!problem.empty()) job->failures.push_back((line ? *line + "\n" : "") + problem);
   }
 }

@@ -110,7 +110,7 @@ class Soak(harness.ProgramTest):
     def soak(self, definition, facts="", *options):
         self.write("lib/poles.trn", definition)
         self.write("lib/facts/pole.trn", facts)
-        return self.tranos("soak", "--library", "lib", "--settings", "30", *options)
+        return self.tranos("soak", "--library", "lib", "--settings", "30", "--crossings", *options)
 
     def test_good(self):
         ran = self.soak(POLE, "place pole xy=0,0,0 as it\nassert it.bbox.max.z within it.height*2 +- 1mm\n")
