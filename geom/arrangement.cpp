@@ -77,9 +77,13 @@ class PlaneCuts {
   // Turns edges that nothing asked for, until no angle is much sharper than it need be (C. L.
   // Lawson, 1977): what is left of long thin triangles is due to the cuts.
   void Smooth() {
+    // By faces: as an edge the engine names the one of its two sides whose face has the lower
+    // address.
     std::vector<typename Triangulation::Edge> open;
-    for (const auto& edge : cuts_.finite_edges()) open.push_back(edge);
-    std::size_t turns_left = 20 * open.size() + 100;
+    for (const Face face : cuts_.finite_face_handles()) {
+      for (int i = 0; i < 3; ++i) open.emplace_back(face, i);
+    }
+    std::size_t turns_left = 10 * open.size() + 100;
     while (!open.empty() && turns_left > 0) {
       const auto [face, i] = open.back();
       open.pop_back();
