@@ -114,7 +114,7 @@ class Scripts(unittest.TestCase):
 
     def test_a_script_is_in_the_one_layout_and_short(self):
         self.assertEqual(["is not in the layout of tranos fmt"], self.found("assert   true\n"))
-        self.assertEqual(["is longer than 60 lines"], self.found("assert true\n" * 61))
+        self.assertEqual(["is longer than 400 lines"], self.found("assert true\n" * 401))
 
     def test_the_papers_script_stays(self):
         self.assertEqual([], self.found("place line;xy=0,0,0;dl=1\n", documents.VERBATIM))
