@@ -147,7 +147,8 @@ class Machine {
   std::optional<Slice> slice_;       // what was computed from these; until `calibrate`, of the run
   std::uint64_t stages_made_ = 0;
   std::shared_ptr<PhotographFiles> photographs_ = std::make_shared<PhotographFiles>();
-  SolidLedger solids_;
+  SolidLedger solids_{
+      [this](std::uint64_t facets, Span span) { budget_.ChargeSteps(facets, span); }};
   int call_depth_ = 0;
   int definition_depth_ = 0;
   Stage* stage_ = nullptr;  // of the code that runs

@@ -3,6 +3,7 @@
 // written, and what fails then is told of the statement that asked for it.
 #pragma once
 
+#include <functional>
 #include <unordered_map>
 
 #include "interp/source.h"
@@ -12,6 +13,9 @@ namespace tranos::interp {
 
 class SolidLedger {
  public:
+  // Work on solids is charged facet by facet, as steps: `charge` throws where a limit is reached.
+  explicit SolidLedger(std::function<void(std::uint64_t facets, Span)> charge)
+      : charge_(std::move(charge)) {}
   // The solids that these elements are or hold, as made by the statement; those known already stay
   // with theirs.
   void Note(const std::vector<model::ElementPtr>& elements, Span statement);
@@ -24,6 +28,7 @@ class SolidLedger {
     model::SolidPtr solid;  // kept, so that its address stays its own
     Span statement;
   };
+  std::function<void(std::uint64_t, Span)> charge_;
   std::unordered_map<const geom::Solid::Node*, Made> made_;
 };
 
