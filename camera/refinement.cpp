@@ -244,6 +244,8 @@ geom::Result<Refined> Solve(std::span<const Photograph> photographs,
   const bool bound = std::ranges::find(refined.at_bound, true) != refined.at_bound.end();
   const bool wants_polish = refine.loss == Loss::kNone && !bound && !refine.is_rough;
   if (wants_polish) Polish(evaluation, state, layout, refine.skew_rad);
+  // What gives the numbers may have come to its limit in the meantime.
+  if (!evaluation.linearised()) return tl::unexpected(evaluation.linearised().error());
   const Linearised& at = *evaluation.linearised();
   refined.numbers = *evaluation.numbers();
   refined.chi2 = at.residuals.squaredNorm();

@@ -87,7 +87,7 @@ TEST(Place, IsTotal) {
     for (const double a : extremes) {
       for (const double b : extremes) {
         DrawingBoard board;
-        const std::vector<Vec3> points = {{a, b, 0}, {b, a, 0}, {a, a, b}};
+        const std::vector<Vec3> points = {{a, b, 0}, {b, a, 0}, {a, a, b}, {b, b, a}};
         const std::size_t count = row.manner == Manner::kGathers ? 3 : row.prompts.size();
         const auto result =
             board.Do(row.words, {points.begin(), points.begin() + static_cast<long>(count)},

@@ -114,8 +114,7 @@ TEST(Row, PromptsFitTheManner) {
 
 TEST(Row, LaterCommandsAreKnown) {
   for (const std::string_view words :
-       {"place dimension", "construct surface tube", "construct surface loft", "recover facade",
-        "detect edges", "set facade", "plot"}) {
+       {"place dimension", "recover facade", "detect edges", "set facade", "plot"}) {
     const Command* row = FindCommand(words);
     ASSERT_NE(row, nullptr) << words;
     EXPECT_FALSE(IsCarriedOut(*row)) << words;
