@@ -178,7 +178,7 @@ class Soak(harness.ProgramTest):
         self.assertNotEqual(self.soak(POLE, facts).err, self.soak(POLE, facts, "--seed", "2").err)
 
     def test_one(self):
-        ran = self.tranos("soak", "dome_cruciform", "--settings", "2")
+        ran = self.tranos("soak", "string_course", "--settings", "2")
         self.assertEqual(ran.status, 0, ran.err)
         self.assertRegex(ran.out, r"^\d+ settings of \d+ elements and details: 0 failed$")
 
