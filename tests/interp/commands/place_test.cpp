@@ -80,7 +80,11 @@ TEST(PlaceText, IsUnderActiveAngleAndScale) {
 
 // Whatever finite numbers are keyed in: an error, or an element of finite extent.
 TEST(Place, IsTotal) {
+#ifdef TRANOS_SANITIZED  // a quarter of the pairs, for each takes ten times as long
+  const double extremes[] = {0, 1, -1e-9, 1e9, -1e308};
+#else
   const double extremes[] = {0, 1, -1, 1e-320, 1e-9, 1e9, -1e9, 1e154, 1e308, -1e308};
+#endif
   std::size_t made = 0, refused = 0;
   for (const Command& row : AllCommands()) {
     if (row.family != "place" || !row.execute) continue;
