@@ -11,6 +11,7 @@
 #include <unordered_map>
 
 #include "geom/facet_crossing.h"
+#include "geom/mesh_edges.h"
 
 namespace tranos::geom {
 
@@ -198,27 +199,18 @@ struct Arrangement::Exact {
 };
 
 void Arrangement::Exact::FindPlanes() {
-  struct HalfEdge {
-    std::uint32_t mesh, low, high, facet;
-    auto operator<=>(const HalfEdge&) const = default;
-  };
-  std::vector<HalfEdge> edges;
-  edges.reserve(3 * soup.facets.size());
-  for (std::uint32_t f = 0; f < soup.facets.size(); ++f) {
-    const Corners& c = soup.facets[f].corners;
-    for (int i = 0; i < 3; ++i) {
-      const auto [low, high] = std::minmax(c[i], c[(i + 1) % 3]);
-      edges.push_back({soup.facets[f].mesh, low, high, f});
-    }
-  }
-  std::sort(edges.begin(), edges.end());
+  std::vector<Corners> triangles;
+  triangles.reserve(soup.facets.size());
+  for (const SoupFacet& facet : soup.facets) triangles.push_back(facet.corners);
+  // Facets of one mesh follow one another, so that those on one edge do, too.
+  const std::vector<HalfEdge> edges = SortedHalfEdges(triangles);
   for (std::size_t i = 1; i < edges.size(); ++i) {
     const HalfEdge &a = edges[i - 1], &b = edges[i];
-    if (a.mesh != b.mesh || a.low != b.low || a.high != b.high) continue;
-    const Triangle t = TriangleOf(soup, a.facet);
-    for (const std::uint32_t corner : soup.facets[b.facet].corners) {
+    if (!a.SameEdge(b) || soup.facets[a.triangle].mesh != soup.facets[b.triangle].mesh) continue;
+    const Triangle t = TriangleOf(soup, a.triangle);
+    for (const std::uint32_t corner : soup.facets[b.triangle].corners) {
       if (corner == b.low || corner == b.high) continue;
-      if (SideOf(t.a, t.b, t.c, soup.positions[corner]) == 0) planes.Unite(a.facet, b.facet);
+      if (SideOf(t.a, t.b, t.c, soup.positions[corner]) == 0) planes.Unite(a.triangle, b.triangle);
     }
   }
 }

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The sides of a mesh's triangles, so ordered that those on one edge stand together. Internal to
+// The sides of triangles, so ordered that those on one edge stand together. Internal to
 // geom.
 #pragma once
 
+#include <span>
 #include <tuple>
 
 #include "geom/triangle_mesh.h"
@@ -18,6 +19,21 @@ struct HalfEdge {
     return std::tie(low, high, triangle) < std::tie(other.low, other.high, other.triangle);
   }
 };
-std::vector<HalfEdge> SortedHalfEdges(const TriangleMesh&);
+// Of triangles by their corners' indices; the sides on one edge are in the triangles' order.
+std::vector<HalfEdge> SortedHalfEdges(std::span<const std::array<std::uint32_t, 3>> triangles);
+inline std::vector<HalfEdge> SortedHalfEdges(const TriangleMesh& mesh) {
+  return SortedHalfEdges(mesh.triangles);
+}
+
+// Calls visit(sides) with the sides on each edge.
+template <class Visit>
+void ForEachEdge(const std::vector<HalfEdge>& sides, Visit&& visit) {
+  for (std::size_t i = 0; i < sides.size();) {
+    std::size_t end = i + 1;
+    while (end < sides.size() && sides[end].SameEdge(sides[i])) ++end;
+    visit(std::span(sides).subspan(i, end - i));
+    i = end;
+  }
+}
 
 }  // namespace tranos::geom

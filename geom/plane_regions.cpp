@@ -5,6 +5,7 @@
 #include <unordered_map>
 #include <unordered_set>
 
+#include "geom/mesh_edges.h"
 #include "geom/union_find.h"
 
 namespace tranos::geom {
@@ -13,38 +14,13 @@ namespace {
 
 constexpr std::uint32_t kNone = 0xffffffff;
 
-// One side of an edge: the piece that runs along it, from low to high or back.
-struct EdgeSide {
-  std::uint32_t low, high, piece;
-  bool forward;
-  bool OnSameEdge(const EdgeSide& other) const { return low == other.low && high == other.high; }
-};
-
+// The sides of the pieces, those on one edge together.
 template <class PieceType>
-std::vector<EdgeSide> SidesOf(const std::vector<PieceType>& pieces) {
-  std::vector<EdgeSide> sides;
-  sides.reserve(3 * pieces.size());
-  for (std::uint32_t p = 0; p < pieces.size(); ++p) {
-    const auto& c = pieces[p].corners;
-    for (int i = 0; i < 3; ++i) {
-      const auto [low, high] = std::minmax(c[i], c[(i + 1) % 3]);
-      sides.push_back({low, high, p, c[i] == low});
-    }
-  }
-  std::sort(sides.begin(), sides.end(), [](const EdgeSide& a, const EdgeSide& b) {
-    return std::tie(a.low, a.high, a.piece) < std::tie(b.low, b.high, b.piece);
-  });
-  return sides;
-}
-
-template <class Visit>
-void ForEachEdge(const std::vector<EdgeSide>& sides, Visit&& visit) {
-  for (std::size_t i = 0; i < sides.size();) {
-    std::size_t end = i + 1;
-    while (end < sides.size() && sides[end].OnSameEdge(sides[i])) ++end;
-    visit(std::span(sides).subspan(i, end - i));
-    i = end;
-  }
+std::vector<HalfEdge> SidesOf(const std::vector<PieceType>& pieces) {
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  triangles.reserve(pieces.size());
+  for (const PieceType& piece : pieces) triangles.push_back(piece.corners);
+  return SortedHalfEdges(triangles);
 }
 
 bool OfSameMeshes(const Arrangement& arrangement, const Piece& a, const Piece& b) {
@@ -63,9 +39,9 @@ bool OfSameMeshes(const Arrangement& arrangement, const Piece& a, const Piece& b
 std::vector<std::uint32_t> PatchesOf(const Arrangement& arrangement) {
   const std::vector<Piece>& pieces = arrangement.pieces();
   UnionFind patches(pieces.size());
-  ForEachEdge(SidesOf(pieces), [&](std::span<const EdgeSide> sides) {
+  ForEachEdge(SidesOf(pieces), [&](std::span<const HalfEdge> sides) {
     if (sides.size() != 2) return;
-    const std::uint32_t a = sides[0].piece, b = sides[1].piece;
+    const std::uint32_t a = sides[0].triangle, b = sides[1].triangle;
     if (OfSameMeshes(arrangement, pieces[a], pieces[b])) patches.Unite(a, b);
   });
   std::vector<std::uint32_t> first(pieces.size());
@@ -122,9 +98,9 @@ class PlaneMerge {
            arrangement_.PlaneOf(a.facet) == arrangement_.PlaneOf(b.facet);
   }
   void FindRegions() {
-    ForEachEdge(sides_, [&](std::span<const EdgeSide> sides) {
+    ForEachEdge(sides_, [&](std::span<const HalfEdge> sides) {
       if (sides.size() != 2) return;
-      const std::uint32_t a = sides[0].piece, b = sides[1].piece;
+      const std::uint32_t a = sides[0].triangle, b = sides[1].triangle;
       if (BelongTogether(pieces_[a], pieces_[b])) regions_.Unite(a, b);
     });
     for (std::uint32_t p = 0; p < pieces_.size(); ++p) {
@@ -138,15 +114,16 @@ class PlaneMerge {
       }
     }
   }
-  bool IsBorder(std::span<const EdgeSide> sides) const {
-    return sides.size() != 2 || regions_.Root(sides[0].piece) != regions_.Root(sides[1].piece);
+  bool IsBorder(std::span<const HalfEdge> sides) const {
+    return sides.size() != 2 ||
+           regions_.Root(sides[0].triangle) != regions_.Root(sides[1].triangle);
   }
   void FindBorders() {
-    ForEachEdge(sides_, [&](std::span<const EdgeSide> sides) {
+    ForEachEdge(sides_, [&](std::span<const HalfEdge> sides) {
       if (!IsBorder(sides)) return;
-      const EdgeSide& edge = sides[0];
-      for (const EdgeSide& side : sides) {
-        const std::uint32_t region = regions_.Root(side.piece);
+      const HalfEdge& edge = sides[0];
+      for (const HalfEdge& side : sides) {
+        const std::uint32_t region = regions_.Root(side.triangle);
         on_border_.insert(KeyOf(region, edge.low));
         on_border_.insert(KeyOf(region, edge.high));
       }
@@ -193,7 +170,7 @@ class PlaneMerge {
   }
   std::unordered_map<std::uint32_t, std::vector<Arrangement::RegionEdge>> BordersByRegion() const {
     std::unordered_map<std::uint32_t, std::vector<Arrangement::RegionEdge>> borders;
-    ForEachEdge(sides_, [&](std::span<const EdgeSide> sides) {
+    ForEachEdge(sides_, [&](std::span<const HalfEdge> sides) {
       if (!IsBorder(sides)) return;
       const std::uint32_t low = sides[0].low, high = sides[0].high;
       // An edge that loses an end is told from its end that stays; one that loses both, not at all.
@@ -204,7 +181,7 @@ class PlaneMerge {
       // Both ends of a merged edge tell it; the lower one is heard.
       if (end != to && from > end) return;
       std::vector<std::uint32_t> regions;
-      for (const EdgeSide& side : sides) regions.push_back(regions_.Root(side.piece));
+      for (const HalfEdge& side : sides) regions.push_back(regions_.Root(side.triangle));
       std::sort(regions.begin(), regions.end());
       for (std::size_t i = 0; i < regions.size(); ++i) {
         if (i > 0 && regions[i] == regions[i - 1]) continue;
@@ -225,7 +202,7 @@ class PlaneMerge {
 
   const Arrangement& arrangement_;
   std::vector<SurfacePiece> pieces_;
-  std::vector<EdgeSide> sides_;
+  std::vector<HalfEdge> sides_;
   UnionFind regions_;
   std::vector<Corner> corners_;
   std::unordered_set<std::uint64_t> on_border_;  // regions with their borders' corners

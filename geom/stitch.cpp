@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <utility>
 
 #include "geom/mesh_edges.h"
+#include "geom/union_find.h"
 
 namespace tranos::geom {
 namespace {
@@ -17,30 +17,21 @@ constexpr double kSamePlace_m = 1e-6;
 constexpr double kSameNormal = 1 - 1e-6;  // cosine
 
 // Parts of a mesh that share vertices: creases have two rows of them.
-class Parts {
- public:
-  explicit Parts(const Mesh& mesh) : parent_(mesh.positions.size()) {
-    std::iota(parent_.begin(), parent_.end(), 0u);
-    for (const Triangle& t : mesh.triangles) {
-      parent_[Root(t[1])] = Root(t[0]);
-      parent_[Root(t[2])] = Root(t[0]);
-    }
+UnionFind PartsOf(const Mesh& mesh) {
+  UnionFind parts(mesh.positions.size());
+  for (const Triangle& t : mesh.triangles) {
+    parts.Unite(t[0], t[1]);
+    parts.Unite(t[0], t[2]);
   }
-  std::uint32_t Root(std::uint32_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-
- private:
-  std::vector<std::uint32_t> parent_;
-};
+  return parts;
+}
 
 class Stitcher {
  public:
   explicit Stitcher(double tolerance_m) : tolerance_m_(tolerance_m) {}
 
   void Add(const Mesh& mesh) {
-    Parts parts(mesh);
+    const UnionFind parts = PartsOf(mesh);
     std::map<std::uint32_t, std::uint32_t> surface_of_root;
     std::vector<std::uint32_t> joined;
     for (const Vec3& p : mesh.positions) joined.push_back(PositionAt(p));
@@ -64,8 +55,8 @@ class Stitcher {
     for (const auto& [key, normal] : normals_) {
       const Vec3 outward = flipped_[key.second] ? Vec3(-normal) : normal;
       std::vector<Vec3>& at = result.normals[key.first];
-      const bool known = std::any_of(
-          at.begin(), at.end(), [&](const Vec3& n) { return n.dot(outward) > kSameNormal; });
+      const bool known = std::any_of(at.begin(), at.end(),
+                                     [&](const Vec3& n) { return n.dot(outward) > kSameNormal; });
       if (!known) at.push_back(outward);
     }
     result.mesh = std::move(mesh_);

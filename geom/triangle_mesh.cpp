@@ -4,13 +4,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <tuple>
 #include <utility>
 
 #include "geom/arrangement.h"
 #include "geom/mesh_edges.h"
 #include "geom/solid_rounding.h"
+#include "geom/union_find.h"
 
 namespace tranos::geom {
 namespace {
@@ -41,34 +41,6 @@ Moments MomentsOf(const TriangleMesh& mesh) {
   return sum;
 }
 
-// Each triangle's shell: triangles that share an edge are of one.
-class Shells {
- public:
-  explicit Shells(const TriangleMesh& mesh) : parent_(mesh.triangles.size()) {
-    std::iota(parent_.begin(), parent_.end(), 0u);
-    const std::vector<HalfEdge> edges = SortedHalfEdges(mesh);
-    for (std::size_t i = 1; i < edges.size(); ++i) {
-      if (edges[i].SameEdge(edges[i - 1])) {
-        parent_[Root(edges[i].triangle)] = Root(edges[i - 1].triangle);
-      }
-    }
-  }
-  std::uint32_t Root(std::uint32_t triangle) {
-    while (parent_[triangle] != triangle) {
-      triangle = parent_[triangle] = parent_[parent_[triangle]];
-    }
-    return triangle;
-  }
-  int Count() {
-    int count = 0;
-    for (std::uint32_t i = 0; i < parent_.size(); ++i) count += Root(i) == i;
-    return count;
-  }
-
- private:
-  std::vector<std::uint32_t> parent_;
-};
-
 // The point of the triangle abc that is nearest to p: Ericson, Real-Time Collision Detection
 // (2005), 5.1.5, by the Voronoi regions of corners, edges and the face.
 Vec3 NearestInTriangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
@@ -97,28 +69,14 @@ double DistanceToBox(const Vec3& p, const Box& box) {
 
 }  // namespace
 
-std::vector<HalfEdge> SortedHalfEdges(const TriangleMesh& mesh) {
-  std::vector<HalfEdge> edges;
-  edges.reserve(3 * mesh.triangles.size());
-  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::uint32_t from = mesh.triangles[t][k], to = mesh.triangles[t][(k + 1) % 3];
-      edges.push_back({std::min(from, to), std::max(from, to), t, from < to});
-    }
-  }
-  std::sort(edges.begin(), edges.end());
-  return edges;
-}
-
 bool IsClosed(const TriangleMesh& mesh) {
-  const std::vector<HalfEdge> edges = SortedHalfEdges(mesh);
-  for (std::size_t i = 0; i < edges.size();) {
+  bool is_closed = true;
+  ForEachEdge(SortedHalfEdges(mesh), [&](std::span<const HalfEdge> sides) {
     int balance = 0;
-    const HalfEdge& first = edges[i];
-    for (; i < edges.size() && edges[i].SameEdge(first); ++i) balance += edges[i].rises ? 1 : -1;
-    if (balance != 0) return false;
-  }
-  return true;
+    for (const HalfEdge& side : sides) balance += side.rises ? 1 : -1;
+    is_closed &= balance == 0;
+  });
+  return is_closed;
 }
 
 double Volume(const TriangleMesh& mesh) { return MomentsOf(mesh).sixfold_volume / 6; }
@@ -153,7 +111,15 @@ int Genus(const TriangleMesh& mesh) {
   return ShellCount(mesh) - static_cast<int>(characteristic / 2);
 }
 
-int ShellCount(const TriangleMesh& mesh) { return Shells(mesh).Count(); }
+int ShellCount(const TriangleMesh& mesh) {
+  UnionFind shells(mesh.triangles.size());
+  ForEachEdge(SortedHalfEdges(mesh), [&](std::span<const HalfEdge> sides) {
+    for (const HalfEdge& side : sides) shells.Unite(sides[0].triangle, side.triangle);
+  });
+  int count = 0;
+  for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) count += shells.Root(i) == i;
+  return count;
+}
 
 bool HasSelfIntersection(const TriangleMesh& mesh) {
   Soup soup;

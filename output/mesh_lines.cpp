@@ -3,9 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <tuple>
 #include <utility>
+
+#include "geom/equal_positions.h"
 
 namespace tranos::output {
 namespace {
@@ -14,22 +15,6 @@ using geom::Vec3;
 using Ends = std::array<std::uint32_t, 2>;
 
 Ends Sorted(std::uint32_t a, std::uint32_t b) { return a < b ? Ends{a, b} : Ends{b, a}; }
-
-// For each position the lowest index of an equal one.
-std::vector<std::uint32_t> FirstOfEqual(const std::vector<Vec3>& positions) {
-  std::vector<std::uint32_t> order(positions.size()), first(positions.size());
-  std::iota(order.begin(), order.end(), 0u);
-  const auto key = [&](std::uint32_t i) {
-    const Vec3& p = positions[i];
-    return std::tuple(p.x(), p.y(), p.z(), i);
-  };
-  std::sort(order.begin(), order.end(), [&](auto a, auto b) { return key(a) < key(b); });
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    const bool equal = i > 0 && positions[order[i]] == positions[order[i - 1]];
-    first[order[i]] = equal ? first[order[i - 1]] : order[i];
-  }
-  return first;
-}
 
 Vec3 Normal(const geom::Mesh& mesh, std::uint32_t triangle) {
   const auto& t = mesh.triangles[triangle];
@@ -40,7 +25,7 @@ Vec3 Normal(const geom::Mesh& mesh, std::uint32_t triangle) {
 }  // namespace
 
 std::vector<MeshEdge> EdgesOf(const geom::Mesh& mesh) {
-  const std::vector<std::uint32_t> first = FirstOfEqual(mesh.positions);
+  const std::vector<std::uint32_t> first = geom::FirstOfEqual(mesh.positions);
   struct Side {
     Ends ends;
     std::uint32_t triangle;

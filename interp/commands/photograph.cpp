@@ -20,10 +20,7 @@ using model::Value;
 
 namespace {
 
-constexpr double kDegree = kPi / 180;
 constexpr double kLongerSide = 36;  // mm, unless the format is stated
-
-Where AtKey(std::string_view key) { return {Where::kKey, 0, key}; }
 
 // Two numbers above zero; nothing if they are something else.
 std::optional<geom::Vec2> PairOf(const Value& value, double unit) {

@@ -6,6 +6,8 @@
 
 namespace tranos::interp {
 
+inline constexpr double kDegree = geom::kPi / 180;
+
 // The photograph or camera that a statement means: by its name in a bare word, by photo=, or the
 // one last attached or set.
 tl::expected<model::ElementPtr, CommandError> PhotographMeant(const model::State& state,

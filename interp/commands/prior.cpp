@@ -17,10 +17,6 @@ using model::Value;
 
 namespace {
 
-constexpr double kDegree = kPi / 180;
-
-Where AtKey(std::string_view key) { return {Where::kKey, 0, key}; }
-
 // The way a prior on this is stated.
 std::string PriorHelp(std::string_view key, std::string_view deviation) {
   const std::string_view value = key == "aspect"      ? "1"
