@@ -404,7 +404,6 @@ Arrangement::~Arrangement() = default;
 
 const Soup& Arrangement::soup() const { return exact_->soup; }
 const std::vector<Piece>& Arrangement::pieces() const { return exact_->pieces; }
-const std::vector<PieceLabel>& Arrangement::labels() const { return exact_->labels; }
 std::span<const PieceLabel> Arrangement::LabelsOf(const Piece& piece) const {
   return std::span(exact_->labels).subspan(piece.first_label, piece.label_count);
 }

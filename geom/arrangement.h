@@ -34,7 +34,7 @@ struct PieceLabel {
 };
 struct Piece {
   std::array<std::uint32_t, 3> corners;
-  std::uint32_t first_label, label_count;  // in Arrangement::labels()
+  std::uint32_t first_label, label_count;  // for Arrangement::LabelsOf
 };
 
 class Arrangement {
@@ -47,7 +47,6 @@ class Arrangement {
 
   const Soup& soup() const;
   const std::vector<Piece>& pieces() const;
-  const std::vector<PieceLabel>& labels() const;
   std::span<const PieceLabel> LabelsOf(const Piece& piece) const;
   // Corners: those of the soup, and those that were made where facets meet.
   std::uint32_t corner_count() const;

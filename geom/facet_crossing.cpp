@@ -182,6 +182,9 @@ bool CrossingFinder::Before(std::uint32_t a, std::uint32_t b, const Vec3& along)
 
 bool HasCrossing(const Soup& soup, const std::vector<bool>& is_suspect) {
   const auto suspect = [&](std::uint32_t facet) { return is_suspect.empty() || is_suspect[facet]; };
+  if (!is_suspect.empty() &&
+      std::find(is_suspect.begin(), is_suspect.end(), true) == is_suspect.end())
+    return false;
   const std::vector<Box> boxes = BoxesOf(soup);
   const BoxTree tree(boxes);
   CornerTable corners(soup.positions);
