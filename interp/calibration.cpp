@@ -120,8 +120,7 @@ geom::Result<std::vector<camera::Estimate>> EstimatesBy(const Method& method, co
                                                std::move(estimate.error())));
     }
     TellOpen(method, traced.photographs[p], numbers, &*estimate);
-    camera::AppendWeaknesses(traced.photographs[p], numbers, &estimate->camera,
-                             estimate->warnings);
+    camera::AppendWeaknesses(traced.photographs[p], numbers, &estimate->camera, estimate->warnings);
     estimates.push_back(*std::move(estimate));
   }
   return estimates;

@@ -54,7 +54,7 @@ class Photograph(harness.ProgramTest):
         shifted = SCRIPT.replace("dot=", "dot=0.1+", 1).split("assert")[0]
         camera = self.camera("noise=estimated\n" + shifted)
         self.assertTrue(camera["noise_is_estimated"])
-        self.assertGreater(camera["noise_px"], 0.001)
+        self.assertGreater(camera["noise_px"], 1e-5)
         self.assertLess(camera["noise_px"], 1)
 
     def test_what_is_not_determined_gets_no_number(self):
