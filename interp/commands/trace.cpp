@@ -24,15 +24,38 @@ using Kind = Trace::Kind;
 
 Where AtDot(std::size_t index) { return {Where::kPoint, static_cast<int>(index), {}}; }
 
-// A photograph's edge may be traced a little beyond its border, where an edge leaves the picture.
+// In parts of the picture's size. An edge may be traced a little beyond its border, as where a
+// print was cropped or a corner is where two traced edges would meet; what is farther off is a
+// slip.
 constexpr double kBeyondBorder = 0.25;
 
-std::optional<CommandError> CheckDots(const Answers& answers, const camera::Frame& frame) {
+// How far outside a dot is.
+Vec2 Beyond(const Vec2& dot, const Vec2& size_px) {
+  return (-dot).cwiseMax(dot - size_px).cwiseMax(0);
+}
+
+std::vector<CommandError> WarningsOfDots(const Answers& answers, const camera::Frame& frame) {
+  for (std::size_t i = 0; i < answers.points.size(); ++i) {
+    const Vec2 dot = answers.points[i].head<2>();
+    if (Beyond(dot, frame.size_px.cast<double>()).isZero()) continue;
+    return {{.code = Code::kDotOutside,
+             .message = fmt::format("the dot {:g},{:g} is outside the photograph, where nothing of "
+                                    "it is seen",
+                                    dot.x(), dot.y()),
+             .label = fmt::format("the photograph is {} by {} pixels", frame.size_px.x(),
+                                  frame.size_px.y()),
+             .where = AtDot(i)}};
+  }
+  return {};
+}
+
+// `group` dots belong together, and are apart; those of two edges may meet in a corner.
+std::optional<CommandError> CheckDots(const Answers& answers, const camera::Frame& frame,
+                                      std::size_t group) {
   const Vec2 size_px = frame.size_px.cast<double>();
   for (std::size_t i = 0; i < answers.points.size(); ++i) {
     const Vec2 dot = answers.points[i].head<2>();
-    const Vec2 beyond = (-dot).cwiseMax(dot - size_px).cwiseMax(0);
-    if ((beyond.array() > kBeyondBorder * size_px.array()).any()) {
+    if ((Beyond(dot, size_px).array() > kBeyondBorder * size_px.array()).any()) {
       return CommandError{
           .code = Code::kBadTrace,
           .message = fmt::format("the dot {:g},{:g} is outside the photograph", dot.x(), dot.y()),
@@ -40,7 +63,7 @@ std::optional<CommandError> CheckDots(const Answers& answers, const camera::Fram
                                frame.size_px.y()),
           .where = AtDot(i)};
     }
-    for (std::size_t j = 0; j < i; ++j) {
+    for (std::size_t j = i - i % group; j < i; ++j) {
       if ((answers.points[j].head<2>() - dot).norm() > 1e-6) continue;
       return CommandError{.code = Code::kBadTrace,
                           .message = "two dots of the trace are in one place",
@@ -53,7 +76,9 @@ std::optional<CommandError> CheckDots(const Answers& answers, const camera::Fram
 CommandResult MakeTrace(const State& state, const Answers& answers, Trace trace, std::size_t dots) {
   const auto photograph = PhotographMeant(state, answers.Has("photo") ? answers : Answers{});
   if (!photograph) return Fail(photograph.error());
-  if (auto error = CheckDots(answers, PhotographOf(**photograph).frame)) return Fail(*error);
+  const camera::Frame& frame = PhotographOf(**photograph).frame;
+  const std::size_t group = trace.kind == Kind::kRatio ? 2 : answers.points.size();
+  if (auto error = CheckDots(answers, frame, group)) return Fail(*error);
   if (dots > 0 && answers.points.size() != dots) {
     return Fail({.code = Code::kBadTrace,
                  .message = fmt::format("this trace takes {} dots, and has {}", dots,
@@ -63,7 +88,9 @@ CommandResult MakeTrace(const State& state, const Answers& answers, Trace trace,
   trace.photograph = (*photograph)->id;
   trace.noise_px = state.drawing.settings->noise_px;
   trace.facade = answers.Text("facade", "main");
-  return Make(state, std::make_shared<const Trace>(std::move(trace)));
+  CommandResult made = Make(state, std::make_shared<const Trace>(std::move(trace)));
+  made->warnings = WarningsOfDots(answers, frame);
+  return made;
 }
 
 // How many pixels a line was fitted to.
