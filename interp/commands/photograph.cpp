@@ -63,7 +63,8 @@ tl::expected<PhotographFile, CommandError> ReadPhotograph(const std::string& fil
   }
   return surroundings.photographs
       .emplace(file, PhotographFile{model::Hasher().Text(*bytes).Finish(),
-                                    {size->width_px, size->height_px}})
+                                    {size->width_px, size->height_px},
+                                    std::make_shared<const camera::PhotoFile>(*bytes)})
       .first->second;
 }
 
@@ -72,7 +73,8 @@ CommandResult AttachPhoto(const State& state, const Answers& answers,
   const std::string file = answers.Text("file");
   const auto read = ReadPhotograph(file, surroundings);
   if (!read) return Fail(read.error());
-  model::Photograph photograph{.file = file, .content = read->content};
+  model::Photograph photograph{
+      .file = file, .content = read->content, .picture = read->picture, .attached = true};
   photograph.frame.size_px = read->size_px;
   if (const Value* format = answers.Find("format")) {
     const auto size_mm = FormatOf(*format);
