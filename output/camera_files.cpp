@@ -18,13 +18,15 @@ const model::Photograph& PhotographOf(const CameraRequest& request) {
   return *std::get<model::PhotographPtr>(request.photograph->geometry);
 }
 
+bool MayBeRectangular(const CameraRequest& request) {
+  return request.format == CameraFormat::kOpenCv || request.format == CameraFormat::kColmap;
+}
+
 Result<Unskewed> UnskewedFor(const CameraRequest& request) {
   const model::Photograph& taken = PhotographOf(request);
-  const bool rectangular =
-      request.format == CameraFormat::kOpenCv || request.format == CameraFormat::kColmap;
   const auto unskewed =
       camera::UnskewedOf({taken.frame, taken.estimate->camera},
-                         rectangular ? PixelShape::kRectangular : PixelShape::kSquare);
+                         MayBeRectangular(request) ? PixelShape::kRectangular : PixelShape::kSquare);
   if (!unskewed) return tl::unexpected(Error{unskewed.error().detail, request.photograph->id});
   return *unskewed;
 }
@@ -56,11 +58,9 @@ Paths PathsOf(const CameraRequest& request, const Unskewed& unskewed) {
     paths.texts = {file + "/cameras.txt", file + "/images.txt", file + "/points3D.txt"};
   }
   if (!request.picture || request.format == CameraFormat::kFspyProject) return paths;
-  const std::string_view mark = !unskewed.changed ? "" : is_folder || request.format == CameraFormat::kOpenCv
-                                                     ? "_unskewed"
-                                                     : "_square";
   paths.picture = is_folder ? file + "/images/" + NameOf(request) : stem;
-  paths.picture += std::string(mark) + ".png";
+  if (unskewed.changed) paths.picture += MayBeRectangular(request) ? "_unskewed" : "_square";
+  paths.picture += ".png";
   return paths;
 }
 
@@ -124,9 +124,7 @@ Result<std::vector<NamedFile>> CameraFilesOf(const CameraRequest& request) {
     if (!picture) return tl::unexpected(picture.error());
     files.push_back({paths.picture, *picture});
   }
-  const auto exact = ExactCameraOf(*request.photograph);
-  if (!exact) return tl::unexpected(exact.error());
-  files.push_back({paths.exact, *exact});
+  files.push_back({paths.exact, ExactCameraOf(*request.photograph)});
   return files;
 }
 

@@ -6,7 +6,6 @@
 
 #include "camera/unskewed.h"
 #include "model/element.h"
-#include "output/result.h"
 
 namespace tranos::output {
 
@@ -33,6 +32,6 @@ std::string ColmapImagesOf(const NamedCamera&);
 std::string BlenderScriptOf(const NamedCamera&);
 // The camera as it is, JSON: the parameters as reports name them, K, R, t and P = K [R | t] to
 // dots; and where dots are in the pictures without skew and with square pixels.
-Result<std::string> ExactCameraOf(const model::Element& photograph);
+std::string ExactCameraOf(const model::Element& photograph);
 
 }  // namespace tranos::output
