@@ -8,6 +8,7 @@
 
 #include "camera/calibrate.h"
 #include "camera/dlt.h"
+#include "camera/estimation.h"
 #include "camera/orthocentre.h"
 #include "camera/paper_method.h"
 #include "camera/sweep.h"
@@ -119,6 +120,7 @@ geom::Result<std::vector<camera::Estimate>> EstimatesBy(const Method& method, co
                                                std::move(estimate.error())));
     }
     TellOpen(method, traced.photographs[p], numbers, &*estimate);
+    camera::AppendWeaknesses(traced.photographs[p], numbers, &estimate->camera, estimate->warnings);
     estimates.push_back(*std::move(estimate));
   }
   return estimates;

@@ -48,8 +48,10 @@ std::optional<CommandError> SetPrincipal(const Value& value, const Surroundings&
                                          model::Photograph* photograph) {
   const camera::Frame& frame = photograph->frame;
   camera::Prior* const priors = photograph->priors + camera::kPrincipalX;
-  if (value.is_number() && value.dimension().plain() && value.number() == 1) {
-    const double share = Sigma(value, surroundings.sources);
+  // `centre` is the number 1. The adjustment tries each `+-` a little beside its value.
+  const bool is_number = value.is_number() && value.dimension().plain();
+  const double share = is_number ? Sigma(value, surroundings.sources) : 0;
+  if (is_number && std::abs(value.number() - 1) <= share) {
     if (auto error = NoDeviation("principal", value, share)) return error;
     for (int i = 0; i < 2; ++i) priors[i] = {0, share * frame.size_mm[i]};
     return std::nullopt;

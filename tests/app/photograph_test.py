@@ -50,6 +50,13 @@ class Photograph(harness.ProgramTest):
         printed = self.run_script(text + "\nreport camera hall\n").out
         self.assertRegex(printed, r"prior α 89 ± 1°, priors are \d+ % of the result")
 
+    def test_estimated_noise_is_told(self):
+        shifted = SCRIPT.replace("dot=", "dot=0.1+", 1).split("assert")[0]
+        camera = self.camera("noise=estimated\n" + shifted)
+        self.assertTrue(camera["noise_is_estimated"])
+        self.assertGreater(camera["noise_px"], 1e-5)
+        self.assertLess(camera["noise_px"], 1)
+
     def test_what_is_not_determined_gets_no_number(self):
         text = (GOLDENS / "a_facade_alone_leaves_the_camera_open.trn").read_text(encoding="utf-8")
         camera = self.camera(text)
