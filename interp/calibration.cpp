@@ -135,7 +135,7 @@ Fired Machine::Calibrate(const Answers& answers, const model::State& state, Span
     Fail(Code::kNoPhotograph, span, "there is no photograph to calibrate", "",
          "attach photo \"fire_1917.png\" format=40.5mm,26.7mm as fire");
   }
-  const Host silent{host_.read, nullptr, host_.render_photo};
+  const Host silent{host_.read, nullptr};
   Evaluation evaluation(*this, silent, state, traced, span);
   const Method method{answers.Text("method", "likelihood"), RangeOf(answers, span)};
   Eigen::VectorXd start(static_cast<Eigen::Index>(evaluation.unknowns().size()));
@@ -398,6 +398,7 @@ Value Machine::WithError(Value number) {
   if (!trial_) return number;
   const auto error = trial_->values.find(met);
   if (error == trial_->values.end()) return number;
+  sources_.back().tried = error->second;
   return Value::Uncertain({number.number() + error->second, *number.derivatives()},
                           number.dimension());
 }

@@ -24,7 +24,7 @@ class Gathering {
   Gathering(const model::State& state, ElementId only) : state_(state) {
     ForEachPart([&](const ElementPtr& element) {
       const auto* photograph = std::get_if<model::PhotographPtr>(&element->geometry);
-      const bool meant = only == model::kNoElement ? photograph && (*photograph)->attached
+      const bool meant = only == model::kNoElement ? photograph && !(*photograph)->file.empty()
                                                    : element->id == only;
       if (photograph && meant) Add(*element, **photograph);
     });

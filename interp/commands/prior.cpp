@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "interp/arithmetic.h"
 #include "interp/commands/families.h"
@@ -48,10 +49,10 @@ std::optional<CommandError> SetPrincipal(const Value& value, const Surroundings&
                                          model::Photograph* photograph) {
   const camera::Frame& frame = photograph->frame;
   camera::Prior* const priors = photograph->priors + camera::kPrincipalX;
-  // `centre` is the number 1. The adjustment tries each `+-` a little beside its value.
-  const bool is_number = value.is_number() && value.dimension().plain();
-  const double share = is_number ? Sigma(value, surroundings.sources) : 0;
-  if (is_number && std::abs(value.number() - 1) <= share) {
+  // `centre` is the number 1.
+  if (value.is_number() && value.dimension().plain() &&
+      std::abs(Stated(value, surroundings.sources) - 1) < 1e-12) {
+    const double share = Sigma(value, surroundings.sources);
     if (auto error = NoDeviation("principal", value, share)) return error;
     for (int i = 0; i < 2; ++i) priors[i] = {0, share * frame.size_mm[i]};
     return std::nullopt;
