@@ -83,12 +83,13 @@ tl::expected<Files, Diagnostic> MadeBy(const Request& request, int threads) {
     auto files = FilesOf(request, threads);
     if (files) return std::move(*files);
     const bool is_camera = std::holds_alternative<model::CameraRequest>(request.what);
-    return tl::unexpected(Refused(request, is_camera ? Code::kOutOfRange : Code::kTooManyFacets,
-                                  files.error().message,
-                                  is_camera ? "export exact \"camera.json\" keeps it as it is"
-                                            : "a larger `tol` or a smaller `fn` gives fewer facets"));
+    return tl::unexpected(Refused(
+        request, is_camera ? Code::kOutOfRange : Code::kTooManyFacets, files.error().message,
+        is_camera ? "export exact \"camera.json\" keeps it as it is"
+                  : "a larger `tol` or a smaller `fn` gives fewer facets"));
   } catch (const std::bad_alloc&) {
-    return tl::unexpected(Refused(request, Code::kMemoryLimit, "it takes more memory than the limit",
+    return tl::unexpected(Refused(request, Code::kMemoryLimit,
+                                  "it takes more memory than the limit",
                                   "--limit memory=N raises it"));
   }
 }

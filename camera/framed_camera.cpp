@@ -42,8 +42,7 @@ geom::Result<FramedCamera> FramedCameraOf(const Frame& frame, const Mat3& dot_fr
   if (!(position_m.norm() < kFarthest_m)) return Refused("its position is out of reach");
   const Eigen::JacobiSVD<Mat3> svd(camera_from_world, Eigen::ComputeFullU | Eigen::ComputeFullV);
   const Mat3 r = svd.matrixU() * svd.matrixV().transpose();
-  if (!((svd.singularValues() - Vec3::Ones()).norm() < kRotationTolerance) ||
-      r.determinant() < 0) {
+  if (!((svd.singularValues() - Vec3::Ones()).norm() < kRotationTolerance) || r.determinant() < 0) {
     return Refused("its rotation is none");
   }
   const Mat3 frame_from_camera = frame.DotFromFrame().inverse() * k;

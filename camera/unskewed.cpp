@@ -53,8 +53,8 @@ geom::Result<Unskewed> UnskewedOf(const FramedCamera& framed, PixelShape shape) 
   }
   const double spread = a * width + std::abs(b) * height;
   if (spread * height > static_cast<double>(kMaxPhotoPixels)) {
-    return tl::unexpected(geom::Error{geom::ErrorCode::kTooLarge,
-                                      "without skew the photograph would be too large"});
+    return tl::unexpected(
+        geom::Error{geom::ErrorCode::kTooLarge, "without skew the photograph would be too large"});
   }
   // The leftmost corner goes to the left border, half a pixel before the first one's centre.
   const double c = -0.5 + 0.5 * a + std::max(b * 0.5, -b * (height - 0.5));

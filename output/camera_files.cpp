@@ -24,9 +24,9 @@ bool MayBeRectangular(const CameraRequest& request) {
 
 Result<Unskewed> UnskewedFor(const CameraRequest& request) {
   const model::Photograph& taken = PhotographOf(request);
-  const auto unskewed =
-      camera::UnskewedOf({taken.frame, taken.estimate->camera},
-                         MayBeRectangular(request) ? PixelShape::kRectangular : PixelShape::kSquare);
+  const auto unskewed = camera::UnskewedOf(
+      {taken.frame, taken.estimate->camera},
+      MayBeRectangular(request) ? PixelShape::kRectangular : PixelShape::kSquare);
   if (!unskewed) return tl::unexpected(Error{unskewed.error().detail, request.photograph->id});
   return *unskewed;
 }
@@ -83,9 +83,10 @@ Result<std::vector<std::string>> TextsOf(const CameraRequest& request, const Uns
       return std::vector{ColmapCamerasOf(named), ColmapImagesOf(named), std::string()};
     case CameraFormat::kFspyProject: {
       if (!request.picture) {
-        return tl::unexpected(Error{"an fSpy project holds a photograph, and the camera was stated "
-                                    "without one",
-                                    request.photograph->id});
+        return tl::unexpected(
+            Error{"an fSpy project holds a photograph, and the camera was stated "
+                  "without one",
+                  request.photograph->id});
       }
       const auto picture = PictureOf(request, unskewed);
       if (!picture) return tl::unexpected(picture.error());
@@ -118,7 +119,8 @@ Result<std::vector<NamedFile>> CameraFilesOf(const CameraRequest& request) {
   const auto texts = TextsOf(request, *unskewed, named);
   if (!texts) return tl::unexpected(texts.error());
   std::vector<NamedFile> files;
-  for (std::size_t i = 0; i < paths.texts.size(); ++i) files.push_back({paths.texts[i], (*texts)[i]});
+  for (std::size_t i = 0; i < paths.texts.size(); ++i)
+    files.push_back({paths.texts[i], (*texts)[i]});
   if (!paths.picture.empty()) {
     const auto picture = PictureOf(request, *unskewed);
     if (!picture) return tl::unexpected(picture.error());

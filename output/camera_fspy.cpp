@@ -22,7 +22,7 @@ constexpr double kFarthest = 1e6;
 constexpr double kSegmentLength = 0.2;  // of the shorter side
 
 struct Axes {
-  std::array<int, 3> order;  // that with the nearest vanishing point first
+  std::array<int, 3> order;    // that with the nearest vanishing point first
   Eigen::Matrix3d directions;  // columns: of X, Y, Z in fSpy's camera, turned to lie before it
   std::array<std::string, 3> names;  // xPositive, where the axis itself lies before it
 };
@@ -40,11 +40,11 @@ Axes AxesOf(const FspyCamera& camera) {
   for (int axis = 0; axis < 3; ++axis) {
     const bool before = axes.directions(2, axis) <= 0;
     if (!before) axes.directions.col(axis) *= -1;
-    axes.names[axis] = std::string(1, static_cast<char>('x' + axis)) + (before ? "Positive" : "Negative");
+    axes.names[axis] =
+        std::string(1, static_cast<char>('x' + axis)) + (before ? "Positive" : "Negative");
   }
-  std::stable_sort(axes.order.begin(), axes.order.end(), [&](int a, int b) {
-    return axes.directions(2, a) < axes.directions(2, b);
-  });
+  std::stable_sort(axes.order.begin(), axes.order.end(),
+                   [&](int a, int b) { return axes.directions(2, a) < axes.directions(2, b); });
   return axes;
 }
 
@@ -140,7 +140,9 @@ Reference ReferenceAlong(const FspyCamera& camera, int axis) {
   return reference;
 }
 
-std::string PositiveName(int axis) { return std::string(1, static_cast<char>('x' + axis)) + "Positive"; }
+std::string PositiveName(int axis) {
+  return std::string(1, static_cast<char>('x' + axis)) + "Positive";
+}
 
 }  // namespace
 
@@ -186,8 +188,7 @@ std::string FspySettingsOf(const NamedCamera& named) {
         {"absoluteFocalLength", 0.5 * camera.relative_focal_length * sensor_mm.maxCoeff()}}},
       {"calibrationSettings2VP", {{"principalPointMode", "Manual"}, {"quadModeEnabled", false}}},
       {"controlPointsStateBase",
-       {{"principalPoint",
-         PointJson(camera::FspyShareOf(dot_of(camera.principal_point), size_px))},
+       {{"principalPoint", PointJson(camera::FspyShareOf(dot_of(camera.principal_point), size_px))},
         {"origin", PointJson(reference.origin)},
         {"referenceDistanceAnchor", PointJson(reference.origin)},
         {"referenceDistanceHandleOffsets", {0, reference.offset}},

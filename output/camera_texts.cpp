@@ -45,6 +45,13 @@ std::string YamlMatrix(std::string_view key, const Matrix& m) {
                      key, m.rows(), m.cols(), data);
 }
 
+// K of a camera without skew; what is left of it is rounding.
+Mat3 WithoutSkew(const camera::FramedCamera& framed) {
+  Mat3 k = camera::DotFromCamera(framed);
+  k(0, 1) = 0;
+  return k;
+}
+
 struct Pose {
   Mat3 camera_from_world;
   Vec3 translation_m;
@@ -66,7 +73,9 @@ ordered_json RowsOf(const Matrix& m) {
 }
 
 ordered_json ParametersJson(const camera::Camera& camera) {
-  const auto of = [&](camera::Parameter p) { return camera[p] / camera::kParameterRows[p].per_unit; };
+  const auto of = [&](camera::Parameter p) {
+    return camera[p] / camera::kParameterRows[p].per_unit;
+  };
   return {{"f_mm", of(camera::kFocal)},
           {"aspect", of(camera::kAspect)},
           {"principal_mm", {of(camera::kPrincipalX), of(camera::kPrincipalY)}},
@@ -86,7 +95,7 @@ std::string OpenCvYamlOf(const NamedCamera& named) {
   yaml += fmt::format("camera_name: {}\n", YamlText(named.name));
   if (!named.picture.empty()) yaml += fmt::format("image_file: {}\n", YamlText(named.picture));
   yaml += fmt::format("image_width: {}\nimage_height: {}\n", frame.size_px.x(), frame.size_px.y());
-  yaml += YamlMatrix("camera_matrix", camera::DotFromCamera(named.framed));
+  yaml += YamlMatrix("camera_matrix", WithoutSkew(named.framed));
   yaml += YamlMatrix("distortion_coefficients", Eigen::Matrix<double, 1, 5>::Zero());
   yaml += YamlMatrix("rotation", r);
   yaml += YamlMatrix("translation", t);
@@ -94,7 +103,7 @@ std::string OpenCvYamlOf(const NamedCamera& named) {
 }
 
 std::string ColmapCamerasOf(const NamedCamera& named) {
-  const Mat3 k = camera::DotFromCamera(named.framed);
+  const Mat3 k = WithoutSkew(named.framed);
   const Eigen::Vector2i size = named.framed.frame.size_px;
   return fmt::format("1 PINHOLE {} {} {} {} {} {}\n", size.x(), size.y(), k(0, 0), k(1, 1),
                      k(0, 2) + 0.5, k(1, 2) + 0.5);
@@ -128,7 +137,7 @@ std::string ExactCameraOf(const model::Element& photograph) {
     const Eigen::Vector2i size = view->view.frame.size_px;
     json[key] = {{"changed", view->changed},
                  {"size_px", {size.x(), size.y()}},
-                 {"K", RowsOf(camera::DotFromCamera(view->view))},
+                 {"K", RowsOf(WithoutSkew(view->view))},
                  {"new_dot_from_dot", RowsOf(view->new_dot_from_dot)}};
   }
   return json.dump(1, ' ', false, ordered_json::error_handler_t::replace) + "\n";

@@ -95,7 +95,7 @@ CommandResult ExportCamera(const State& state, const Answers& answers, model::Ca
   const model::Photograph& photograph = PhotographOf(**found);
   if (!photograph.estimate || !photograph.estimate->determined()) return Fail(NoCameraYet(**found));
   model::CameraRequest request{*found, nullptr, format, answers.Text("file")};
-  const bool is_stated = !photograph.picture && !photograph.attached;
+  const bool is_stated = photograph.file.empty();
   if (is_stated && format == model::CameraFormat::kFspyProject) {
     return Fail({.code = Code::kNoPhotograph,
                  .message = fmt::format("an fSpy project holds a photograph, and {} was stated "
@@ -127,8 +127,9 @@ CommandResult Export(const State& state, const Answers& answers, const Surroundi
     return ExportCamera(state, answers, *format);
   }
   if (!answers.words.empty() || (extension != "glb" && extension != "stl")) {
-    return Fail(UnknownFormat(file, "glb, stl; of a camera fspy, json (`fspy` or `exact`), yaml, "
-                                    "py, or a folder with `colmap`"));
+    return Fail(UnknownFormat(file,
+                              "glb, stl; of a camera fspy, json (`fspy` or `exact`), yaml, "
+                              "py, or a folder with `colmap`"));
   }
   if (answers.Has("camera")) {
     return Fail({.code = Code::kUnknownFormat,
@@ -158,9 +159,7 @@ constexpr Key kRenderKeys[] = {
     {"size", Type::kSize, "width and height in pixels", {}, "1280,960"}};
 constexpr Key kExportKeys[] = {
     {"file", Type::kString, "the file's name", {}, {}, -1, true},
-    {"camera",
-     Type::kElement,
-     "the photograph or camera; the one last attached or set without"}};
+    {"camera", Type::kElement, "the photograph or camera; the one last attached or set without"}};
 constexpr Key kPrintKeys[] = {{"text", Type::kString, "what to print", {}, {}, -1, true}};
 
 constexpr Example kRenderExamples[] = {
@@ -212,7 +211,8 @@ constexpr Command kCommands[] = {
      .family = "output",
      .summary =
          "Writes the model as it stands into a file, whose extension chooses the format: glb, or "
-         "stl for the faces alone; or a camera for other programs: fspy and json for fSpy, yaml for "
+         "stl for the faces alone; or a camera for other programs: fspy and json for fSpy, yaml "
+         "for "
          "OpenCV, py for Blender, a folder for COLMAP, json with `exact` for the camera as it is.",
      .keys = kExportKeys,
      .options = "fspy|opencv|colmap|blender|exact",
