@@ -19,6 +19,9 @@ namespace {
 // A vanishing point farther than this, in halves of the picture's longer side, is taken to be at
 // infinity, which fSpy's solver of two vanishing points cannot hold.
 constexpr double kFarthest = 1e6;
+// With one vanishing point, which then is the principal point, fSpy wants it a little aside: by
+// this share of the focal length, which turns the camera by so many radians.
+constexpr double kAside = 1e-5;
 constexpr double kSegmentLength = 0.2;  // of the shorter side
 
 struct Axes {
@@ -155,11 +158,15 @@ std::string FspySettingsOf(const NamedCamera& named) {
   const Eigen::Vector2i size_px = camera.size_px;
   const Axes axes = AxesOf(camera);
   const auto dot_of = [&](const Vec2& point) { return camera::DotOfFspyPoint(point, size_px); };
+  const Vec3 second = axes.directions.col(axes.order[1]);
+  const bool has_two = IsFinite(camera, second);
   const auto vanishing = [&](int i) -> Vec2 {
+    if (i == 0 && !has_two) {
+      return camera.principal_point - kAside * camera.relative_focal_length * second.head<2>();
+    }
     return VanishingPoint(camera, axes.directions.col(axes.order[i]));
   };
   const auto lines = [&](int i) { return LinesTo(dot_of(vanishing(i)), size_px); };
-  const bool has_two = IsFinite(camera, axes.directions.col(axes.order[1]));
   const Reference reference = ReferenceAlong(camera, axes.order[0]);
   const Vec2 horizon = vanishing(1) - vanishing(0);
   const Vec2 horizon_start(-0.4, 0),
