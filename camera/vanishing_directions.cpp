@@ -1,0 +1,391 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "camera/vanishing_directions.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "camera/conditioning.h"
+#include "camera/likelihood.h"
+
+namespace tranos::camera {
+namespace {
+
+constexpr double kDegree = kPi / 180;
+
+// A line in conditioned coordinates, as the angle to a vanishing point needs it.
+struct Stroke {
+  Vec2 centre, normal;
+  Vec3 line;            // homogeneous
+  double half_length;
+  double angle_sigma;   // rad, of the line alone
+  double offset_sigma;  // of its centre, across
+};
+
+std::vector<Stroke> StrokesOf(std::span<const ImageLine> lines, const Conditioning& conditioning) {
+  std::vector<Stroke> strokes;
+  for (const ImageLine& line : lines) {
+    const Vec2 a = conditioning.PointFromDot(line.a_px), b = conditioning.PointFromDot(line.b_px);
+    const Vec2 along = (b - a).normalized(), normal(-along.y(), along.x()), centre = 0.5 * (a + b);
+    strokes.push_back({centre, normal, Vec3(normal.x(), normal.y(), -normal.dot(centre)),
+                       0.5 * (b - a).norm(), line.tilt_sigma_px / line.length_px(),
+                       line.centre_sigma_px / conditioning.scale_px});
+  }
+  return strokes;
+}
+
+// How much likelier a line is of the direction with vanishing point `v` than of none, for which all
+// angles are alike, if both were as frequent.
+double Evidence(const Stroke& stroke, const Vec3& v, double parallel_rad) {
+  const Vec2 to = v.head<2>() - v.z() * stroke.centre;
+  const double distance = to.norm();
+  // A vanishing point within the line is none of it.
+  if (distance <= std::abs(v.z()) * stroke.half_length) return 0;
+  const double sine = stroke.normal.dot(to) / distance;
+  const double offset = stroke.offset_sigma * v.z() / distance;
+  const double variance = stroke.angle_sigma * stroke.angle_sigma + parallel_rad * parallel_rad +
+                          offset * offset;
+  const double z2 = sine * sine / variance;
+  if (z2 > 25) return 0;
+  return std::sqrt(kPi / (2 * variance)) * std::exp(-0.5 * z2);
+}
+
+// ---- the first direction
+
+struct Candidate {
+  Vec3 point;  // unit vector of conditioned coordinates
+  double score;
+};
+
+double ScoreOf(std::span<const Stroke> strokes, const Vec3& v, double parallel_rad) {
+  double score = 0;
+  for (const Stroke& s : strokes) score += std::log1p(Evidence(s, v, parallel_rad));
+  return score;
+}
+
+// The vanishing point of the lines that point at `v`, by iterated weighted least squares.
+Vec3 Polished(std::span<const Stroke> strokes, Vec3 v, double parallel_rad) {
+  for (int i = 0; i < 3; ++i) {
+    Mat3 scatter = Mat3::Zero();
+    for (const Stroke& s : strokes) {
+      const double evidence = Evidence(s, v, parallel_rad);
+      if (evidence < 1e-3) continue;
+      const double distance = (v.head<2>() - v.z() * s.centre).norm();
+      const double sigma =
+          std::hypot(s.offset_sigma * v.z(), distance * std::hypot(s.angle_sigma, parallel_rad));
+      scatter += evidence / (1 + evidence) / (sigma * sigma) * s.line * s.line.transpose();
+    }
+    const Eigen::SelfAdjointEigenSolver<Mat3> eigen(scatter);
+    v = eigen.eigenvectors().col(0);
+  }
+  return v;
+}
+
+std::vector<Candidate> FirstDirections(std::span<const Stroke> strokes,
+                                       const DirectionSearch& search, std::size_t most) {
+  constexpr int kPairs = 1500;
+  const double tolerance = 2 * search.parallel_rad;
+  std::mt19937_64 random(search.seed);
+  std::vector<Candidate> drawn;
+  for (int i = 0; i < kPairs; ++i) {
+    const Stroke& a = strokes[random() % strokes.size()];
+    const Stroke& b = strokes[random() % strokes.size()];
+    const Vec3 v = a.line.cross(b.line);
+    if (!(v.norm() > 1e-6)) continue;
+    const Vec3 unit = v.normalized();
+    drawn.push_back({unit, ScoreOf(strokes, unit, tolerance)});
+  }
+  std::ranges::stable_sort(drawn, std::greater<>(), &Candidate::score);
+  std::vector<Candidate> kept;
+  const auto is_new = [&](const Vec3& v) {
+    return std::ranges::all_of(kept, [&](const Candidate& k) {
+      // Seen from twice the half picture's size away.
+      const Vec3 a = Vec3(v.x(), v.y(), 2 * v.z()).normalized(),
+                 b = Vec3(k.point.x(), k.point.y(), 2 * k.point.z()).normalized();
+      return a.cross(b).norm() > 2 * kDegree;
+    });
+  };
+  for (const Candidate& c : drawn) {
+    if (kept.size() >= most) break;
+    if (!is_new(c.point)) continue;
+    const Vec3 v = Polished(strokes, c.point, search.parallel_rad);
+    if (is_new(v)) kept.push_back({v, ScoreOf(strokes, v, tolerance)});
+  }
+  return kept;
+}
+
+// ---- the other two
+
+struct Hypothesis {
+  Mat3 camera_from_world;  // in no particular order of axes
+  double focal;            // conditioned
+  double score;
+};
+
+constexpr int kTurns = 90;  // of a degree
+
+// What each turn about the first direction scores: lines that point at the first count for that, the
+// others where they put one of the other two directions.
+std::array<double, kTurns> VotesFor(std::span<const Stroke> strokes,
+                                    std::span<const double> first_gain, double focal,
+                                    const Vec3& d1, const Vec3& u, const Vec3& w,
+                                    double parallel_rad) {
+  std::array<double, kTurns> votes{};
+  for (std::size_t i = 0; i < strokes.size(); ++i) {
+    const Stroke& s = strokes[i];
+    const Vec3 plane(focal * s.line.x(), focal * s.line.y(), s.line.z());
+    const Vec3 along = plane.cross(d1);
+    const double size = along.norm();
+    if (!(size > 1e-9)) continue;
+    const Vec3 direction = along / size, turned = d1.cross(direction);
+    // How the angle in the picture changes with the turn.
+    const Vec3 v(focal * direction.x(), focal * direction.y(), direction.z());
+    const Vec3 by_turn(focal * turned.x(), focal * turned.y(), turned.z());
+    const Vec2 to = v.head<2>() - v.z() * s.centre;
+    const double distance = to.norm();
+    if (distance <= std::abs(v.z()) * s.half_length) continue;
+    const double rate =
+        std::abs(s.normal.dot(by_turn.head<2>() - by_turn.z() * s.centre)) / distance;
+    const double sigma = std::hypot(s.angle_sigma, parallel_rad, s.offset_sigma * v.z() / distance);
+    const double peak = std::sqrt(kPi / 2) / sigma;
+    // Turns that differ by less than a bin are one.
+    const double width = std::min(std::hypot(sigma / std::max(rate, 1e-9), 0.3 * kDegree), 1.5);
+    if (width > 10 * kDegree) continue;
+    const double at = std::atan2(direction.dot(w), direction.dot(u)) / kDegree;
+    const int reach = static_cast<int>(std::ceil(3 * width / kDegree));
+    const int middle = static_cast<int>(std::floor(at));
+    for (int t = middle - reach; t <= middle + reach; ++t) {
+      const double z = (t + 0.5 - at) * kDegree / width;
+      const double gain = std::log1p(peak * std::exp(-0.5 * z * z)) - first_gain[i];
+      if (gain > 0) votes[static_cast<std::size_t>(((t % kTurns) + kTurns) % kTurns)] += gain;
+    }
+  }
+  return votes;
+}
+
+std::vector<Hypothesis> Hypotheses(std::span<const Stroke> strokes,
+                                   const std::vector<Candidate>& firsts, double parallel_rad) {
+  // From 110° across the longer side to 9°, in steps of a twelfth.
+  constexpr double kShortest = 0.7, kLongest = 12, kStep = 1.0833;
+  std::vector<Hypothesis> all;
+  std::vector<double> gain(strokes.size());
+  for (const Candidate& first : firsts) {
+    double base = 0;
+    for (std::size_t i = 0; i < strokes.size(); ++i)
+      base += gain[i] = std::log1p(Evidence(strokes[i], first.point, parallel_rad));
+    for (double focal = kShortest; focal < kLongest; focal *= kStep) {
+      const Vec3 d1 =
+          Vec3(first.point.x() / focal, first.point.y() / focal, first.point.z()).normalized();
+      const Vec3 u = d1.unitOrthogonal(), w = d1.cross(u);
+      const auto votes = VotesFor(strokes, gain, focal, d1, u, w, parallel_rad);
+      for (int t = 0; t < kTurns; ++t) {
+        const double before = votes[(t + kTurns - 1) % kTurns], after = votes[(t + 1) % kTurns];
+        if (votes[t] < before || votes[t] <= after) continue;
+        const double turn = (t + 0.5) * kDegree;
+        Mat3 r;
+        r.col(0) = d1;
+        r.col(1) = std::cos(turn) * u + std::sin(turn) * w;
+        r.col(2) = d1.cross(r.col(1));
+        all.push_back({r, focal, base + votes[t]});
+      }
+    }
+  }
+  std::ranges::stable_sort(all, std::greater<>(), &Hypothesis::score);
+  return all;
+}
+
+// Degrees of the least turn between two frames of axes, whatever axes are called.
+double TurnBetween(const Mat3& a, const Mat3& b) {
+  const Mat3 cosines = (a.transpose() * b).cwiseAbs();
+  double trace = 0;  // of the best matching
+  constexpr int kOrders[6][3] = {{0, 1, 2}, {0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}};
+  for (const auto& o : kOrders)
+    trace = std::max(trace, cosines(o[0], 0) + cosines(o[1], 1) + cosines(o[2], 2));
+  return std::acos(std::clamp(0.5 * (trace - 1), -1.0, 1.0)) / kDegree;
+}
+
+// The best that are not nearly the same.
+std::vector<Hypothesis> Distinct(const std::vector<Hypothesis>& sorted, std::size_t most) {
+  std::vector<Hypothesis> kept;
+  for (const Hypothesis& h : sorted) {
+    if (kept.size() >= most) break;
+    const bool is_new = std::ranges::all_of(kept, [&](const Hypothesis& k) {
+      return TurnBetween(h.camera_from_world, k.camera_from_world) > 4 ||
+             std::abs(std::log(h.focal / k.focal)) > 0.3;
+    });
+    if (is_new) kept.push_back(h);
+  }
+  return kept;
+}
+
+// ---- refinement
+
+// Z the most upright, X of the others the more across the line of sight.
+Mat3 WithAxesNamed(const Mat3& r) {
+  int z = 0;
+  for (int i = 1; i < 3; ++i) {
+    if (std::abs(r(1, i)) > std::abs(r(1, z))) z = i;
+  }
+  int x = (z + 1) % 3, y = (z + 2) % 3;
+  if (std::abs(r(2, x)) > std::abs(r(2, y))) std::swap(x, y);
+  Mat3 named;
+  named.col(2) = r(1, z) > 0 ? Vec3(-r.col(z)) : Vec3(r.col(z));
+  named.col(0) = r(0, x) < 0 ? Vec3(-r.col(x)) : Vec3(r.col(x));
+  named.col(1) = named.col(2).cross(named.col(0));
+  return named;
+}
+
+Photograph WithDefaultPriors(const Frame& frame) {
+  Photograph photograph;
+  photograph.frame = frame;
+  photograph.priors[kAspect] = {1, 0.03};
+  photograph.priors[kPrincipalX] = {0, 0.05 * frame.size_mm.x()};
+  photograph.priors[kPrincipalY] = {0, 0.05 * frame.size_mm.y()};
+  photograph.priors[kSkew] = {kPi / 2, kDegree};
+  return photograph;
+}
+
+// Vanishing points of the three axes, conditioned.
+Mat3 PointsOf(const Camera& camera, const Frame& frame, const Conditioning& conditioning) {
+  Mat3 conditioned_from_dot = Mat3::Identity();
+  conditioned_from_dot.topLeftCorner<2, 2>() /= conditioning.scale_px;
+  conditioned_from_dot.topRightCorner<2, 1>() = -conditioning.centre_px / conditioning.scale_px;
+  return conditioned_from_dot * frame.DotFromFrame() * FrameFromCamera(camera.parameters) *
+         CameraFromWorld(camera.parameters);
+}
+
+struct Mixture {
+  std::array<double, 4> share{0.2, 0.2, 0.2, 0.4};  // of X, Y, Z and none
+  double log_likelihood = 0;                        // above that of lines of no direction
+};
+
+// What each line is, by its probabilities; the shares and the likelihood follow.
+std::vector<std::array<double, 3>> Expect(std::span<const Stroke> strokes, const Mat3& points,
+                                          double parallel_rad, Mixture& mixture) {
+  std::vector<std::array<double, 3>> belongs(strokes.size());
+  std::array<double, 4> sums{1, 1, 1, 1};
+  mixture.log_likelihood = 0;
+  for (std::size_t i = 0; i < strokes.size(); ++i) {
+    double all = mixture.share[3];
+    for (int k = 0; k < 3; ++k) {
+      belongs[i][k] = mixture.share[k] * Evidence(strokes[i], points.col(k), parallel_rad);
+      all += belongs[i][k];
+    }
+    mixture.log_likelihood += std::log(all);
+    double none = 1;
+    for (int k = 0; k < 3; ++k) belongs[i][k] /= all, none -= belongs[i][k], sums[k] += belongs[i][k];
+    sums[3] += none;
+  }
+  for (int k = 0; k < 4; ++k) mixture.share[k] = sums[k] / static_cast<double>(strokes.size() + 4);
+  return belongs;
+}
+
+struct Fitted {
+  Camera camera;
+  double score;
+};
+
+double PenaltyOf(const Photograph& photograph, const Camera& camera) {
+  double chi2 = 0;
+  for (int i = 1; i < kIntrinsics; ++i) {
+    const Prior& prior = photograph.priors[i];
+    chi2 += std::pow((camera.parameters[i] - prior.value) / prior.sigma, 2);
+  }
+  return chi2;
+}
+
+// Expectation and maximisation from a hypothesis, with a tolerance that narrows.
+Fitted Refined(std::span<const ImageLine> lines, std::span<const Stroke> strokes,
+               const Frame& frame, const Hypothesis& start, double parallel_rad, int rounds) {
+  const Conditioning conditioning = ConditioningOf(frame);
+  Photograph photograph = WithDefaultPriors(frame);
+  Mat3 k = Vec3(start.focal, start.focal, 1).asDiagonal();
+  k = FrameFromConditioned(frame) * k;
+  k(0, 0) = k(1, 1) = 0.5 * (k(0, 0) + k(1, 1));
+  Camera camera = CameraOf(k, WithAxesNamed(start.camera_from_world), Vec3::Zero());
+  Mixture mixture;
+  for (int round = 0; round < rounds; ++round) {
+    const double tolerance = parallel_rad * (round == 0 ? 2 : round == 1 ? 1.5 : 1);
+    const auto belongs =
+        Expect(strokes, PointsOf(camera, frame, conditioning), tolerance, mixture);
+    photograph.traces.clear();
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      for (int axis = 0; axis < 3; ++axis) {
+        if (belongs[i][axis] < 0.1) continue;
+        DirectionTrace trace{lines[i], axis};
+        const double weaker = 1 / std::sqrt(belongs[i][axis]);
+        trace.line.centre_sigma_px *= weaker;
+        trace.line.tilt_sigma_px =
+            weaker * std::hypot(lines[i].tilt_sigma_px, tolerance * lines[i].length_px());
+        photograph.traces.push_back(trace);
+      }
+    }
+    // Holds a focal length that nothing determines near where it is.
+    photograph.priors[kFocal] = {camera[kFocal], 0.5 * camera[kFocal]};
+    const CameraFit fit = FitCamera(photograph, {}, camera);
+    const double focal = fit.camera[kFocal];
+    if (!fit.camera.parameters.allFinite() || !(focal > 0.1 * frame.size_mm.x()) ||
+        !(focal < 30 * frame.size_mm.x()))
+      break;
+    camera = fit.camera;
+  }
+  Expect(strokes, PointsOf(camera, frame, conditioning), parallel_rad, mixture);
+  Expect(strokes, PointsOf(camera, frame, conditioning), parallel_rad, mixture);
+  return {camera, mixture.log_likelihood - 0.5 * PenaltyOf(photograph, camera)};
+}
+
+tl::unexpected<geom::Error> Degenerate(const char* detail) {
+  return tl::unexpected(geom::Error{geom::ErrorCode::kDegenerate, detail});
+}
+
+}  // namespace
+
+std::vector<int> AxesOfLines(std::span<const ImageLine> lines, const Frame& frame,
+                             const Camera& camera, double parallel_rad) {
+  const Conditioning conditioning = ConditioningOf(frame);
+  const std::vector<Stroke> strokes = StrokesOf(lines, conditioning);
+  const Mat3 points = PointsOf(camera, frame, conditioning);
+  Mixture mixture;
+  std::vector<std::array<double, 3>> belongs;
+  for (int i = 0; i < 3; ++i) belongs = Expect(strokes, points, parallel_rad, mixture);
+  std::vector<int> axes;
+  for (const auto& b : belongs) {
+    const auto best = std::ranges::max_element(b);
+    axes.push_back(*best > 0.5 ? static_cast<int>(best - b.begin()) : kNoAxis);
+  }
+  return axes;
+}
+
+geom::Result<VanishingDirections> FindVanishingDirections(std::span<const ImageLine> lines,
+                                                          const Frame& frame,
+                                                          const DirectionSearch& search) {
+  if (lines.size() < 4) return Degenerate("there are fewer than four lines");
+  const std::vector<Stroke> all = StrokesOf(lines, ConditioningOf(frame));
+  // The longest tell the most; more of them would only take longer to try.
+  constexpr std::size_t kTried = 300;
+  const std::span<const Stroke> tried(all.data(), std::min(kTried, all.size()));
+  const std::vector<Candidate> firsts = FirstDirections(tried, search, 20);
+  const std::vector<Hypothesis> hypotheses =
+      Distinct(Hypotheses(tried, firsts, search.parallel_rad), 16);
+  if (hypotheses.empty()) return Degenerate("no lines point along orthogonal directions");
+  Fitted best{{}, -std::numeric_limits<double>::infinity()};
+  for (const Hypothesis& h : hypotheses) {
+    const Fitted fitted = Refined(lines, all, frame, h, search.parallel_rad, 6);
+    if (fitted.score > best.score) best = fitted;
+  }
+  VanishingDirections found;
+  found.camera = best.camera;
+  const Mat3 k = FrameFromCamera(best.camera.parameters);
+  found.camera = CameraOf(k, WithAxesNamed(CameraFromWorld(best.camera.parameters)), Vec3::Zero());
+  found.axis = AxesOfLines(lines, frame, found.camera, search.parallel_rad);
+  for (const int axis : found.axis) {
+    if (axis != kNoAxis) ++found.lines[axis];
+  }
+  for (int i = 0; i < 3; ++i) found.is_seen[i] = found.lines[i] >= 3;
+  if (found.directions() < 2)
+    return Degenerate("fewer than two directions have enough lines to be told from chance");
+  return found;
+}
+
+}  // namespace tranos::camera
