@@ -83,9 +83,10 @@ Slopes SlopesAt(const Sampler& sample, const Vec2& at, const Vec2& normal) {
 }
 
 // The steepest place by the parabola through three logarithms, which is exact for a Gaussian; less
-// than `least` or at the end of the reach is none.
-bool AddDot(const Slopes& slopes, double sign, double least, const Vec2& at, const Vec2& normal,
-            std::vector<EdgeDot>& dots) {
+// than `least`, at the end of the reach or where the brightness changes rather along the line, as
+// where it crosses another edge, is none.
+bool AddDot(const Sampler& sample, const Slopes& slopes, double sign, double least, const Vec2& at,
+            const Vec2& normal, std::vector<EdgeDot>& dots) {
   int best = 1;
   for (int s = 2; s < kSlopes - 1; ++s) {
     if (sign * slopes[s] > sign * slopes[best]) best = s;
@@ -96,7 +97,10 @@ bool AddDot(const Slopes& slopes, double sign, double least, const Vec2& at, con
   const double la = std::log(std::max(a, floor)), lb = std::log(b), lc = std::log(std::max(c, floor));
   const double bend = la - 2 * lb + lc;
   const double offset = bend < -1e-9 ? std::clamp(0.5 * (la - lc) / bend, -0.5, 0.5) : 0;
-  dots.push_back({at + (best - kReach + offset) * normal, b * b});
+  const Vec2 dot = at + (best - kReach + offset) * normal, along(normal.y(), -normal.x());
+  constexpr double kMostAlong = 0.4;  // of the slope across: the edge is within 22° of the line
+  if (std::abs(0.5 * (sample(dot + along) - sample(dot - along))) > kMostAlong * b) return false;
+  dots.push_back({dot, b * b});
   return true;
 }
 
@@ -187,7 +191,7 @@ class Follower {
     }
     fit.bright_left = sum > 0;
     for (std::size_t i = 0; i < places.size(); ++i)
-      AddDot(slopes[i], sum > 0 ? 1 : -1, kLeastSlope, places[i], normal, fit.dots);
+      AddDot(sample_, slopes[i], sum > 0 ? 1 : -1, kLeastSlope, places[i], normal, fit.dots);
     return steps;
   }
 

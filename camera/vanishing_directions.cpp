@@ -13,6 +13,7 @@ namespace tranos::camera {
 namespace {
 
 constexpr double kDegree = kPi / 180;
+double Env(const char* n, double d) { const char* s = std::getenv(n); return s ? atof(s) : d; }
 
 // A line in conditioned coordinates, as the angle to a vanishing point needs it.
 struct Stroke {
@@ -21,6 +22,7 @@ struct Stroke {
   double half_length;
   double angle_sigma;   // rad, of the line alone
   double offset_sigma;  // of its centre, across
+  double weight;        // how much it counts
 };
 
 std::vector<Stroke> StrokesOf(std::span<const ImageLine> lines, const Conditioning& conditioning) {
@@ -30,8 +32,12 @@ std::vector<Stroke> StrokesOf(std::span<const ImageLine> lines, const Conditioni
     const Vec2 along = (b - a).normalized(), normal(-along.y(), along.x()), centre = 0.5 * (a + b);
     strokes.push_back({centre, normal, Vec3(normal.x(), normal.y(), -normal.dot(centre)),
                        0.5 * (b - a).norm(), line.tilt_sigma_px / line.length_px(),
-                       line.centre_sigma_px / conditioning.scale_px});
+                       line.centre_sigma_px / conditioning.scale_px, (b - a).norm()});
   }
+  std::vector<double> lengths;
+  for (const Stroke& s : strokes) lengths.push_back(s.weight);
+  std::ranges::sort(lengths);
+  for (Stroke& s : strokes) s.weight = std::pow(std::min(s.weight / lengths[lengths.size() / 2], 10.0), Env("EXPO", 0.5));
   return strokes;
 }
 
@@ -60,7 +66,7 @@ struct Candidate {
 
 double ScoreOf(std::span<const Stroke> strokes, const Vec3& v, double parallel_rad) {
   double score = 0;
-  for (const Stroke& s : strokes) score += std::log1p(Evidence(s, v, parallel_rad));
+  for (const Stroke& s : strokes) score += s.weight * std::log1p(Evidence(s, v, parallel_rad));
   return score;
 }
 
@@ -158,7 +164,7 @@ std::array<double, kTurns> VotesFor(std::span<const Stroke> strokes,
     for (int t = middle - reach; t <= middle + reach; ++t) {
       const double z = (t + 0.5 - at) * kDegree / width;
       const double gain = std::log1p(peak * std::exp(-0.5 * z * z)) - first_gain[i];
-      if (gain > 0) votes[static_cast<std::size_t>(((t % kTurns) + kTurns) % kTurns)] += gain;
+      if (gain > 0) votes[static_cast<std::size_t>(((t % kTurns) + kTurns) % kTurns)] += s.weight * gain;
     }
   }
   return votes;
@@ -173,7 +179,7 @@ std::vector<Hypothesis> Hypotheses(std::span<const Stroke> strokes,
   for (const Candidate& first : firsts) {
     double base = 0;
     for (std::size_t i = 0; i < strokes.size(); ++i)
-      base += gain[i] = std::log1p(Evidence(strokes[i], first.point, parallel_rad));
+      gain[i] = std::log1p(Evidence(strokes[i], first.point, parallel_rad)), base += strokes[i].weight * gain[i];
     for (double focal = kShortest; focal < kLongest; focal *= kStep) {
       const Vec3 d1 =
           Vec3(first.point.x() / focal, first.point.y() / focal, first.point.z()).normalized();
@@ -272,7 +278,7 @@ std::vector<std::array<double, 3>> Expect(std::span<const Stroke> strokes, const
       belongs[i][k] = mixture.share[k] * Evidence(strokes[i], points.col(k), parallel_rad);
       all += belongs[i][k];
     }
-    mixture.log_likelihood += std::log(all);
+    mixture.log_likelihood += strokes[i].weight * std::log(all);
     double none = 1;
     for (int k = 0; k < 3; ++k) belongs[i][k] /= all, none -= belongs[i][k], sums[k] += belongs[i][k];
     sums[3] += none;
@@ -306,7 +312,7 @@ Fitted Refined(std::span<const ImageLine> lines, std::span<const Stroke> strokes
   Camera camera = CameraOf(k, WithAxesNamed(start.camera_from_world), Vec3::Zero());
   Mixture mixture;
   for (int round = 0; round < rounds; ++round) {
-    const double tolerance = parallel_rad * (round == 0 ? 2 : round == 1 ? 1.5 : 1);
+    const double tolerance = parallel_rad * (round == 0 ? Env("T0", 2) : round == 1 ? 1.5 : 1);
     const auto belongs =
         Expect(strokes, PointsOf(camera, frame, conditioning), tolerance, mixture);
     photograph.traces.clear();
@@ -332,7 +338,7 @@ Fitted Refined(std::span<const ImageLine> lines, std::span<const Stroke> strokes
   }
   Expect(strokes, PointsOf(camera, frame, conditioning), parallel_rad, mixture);
   Expect(strokes, PointsOf(camera, frame, conditioning), parallel_rad, mixture);
-  return {camera, mixture.log_likelihood - 0.5 * PenaltyOf(photograph, camera)};
+  return {camera, mixture.log_likelihood * Env("TEMPER", 1) - 0.5 * PenaltyOf(photograph, camera) - 0.5 * std::pow(std::log(camera[kFocal] / (1.2 * std::max(frame.size_mm.x(), frame.size_mm.y()))) / Env("FSIG", 100), 2)};
 }
 
 tl::unexpected<geom::Error> Degenerate(const char* detail) {
@@ -365,13 +371,13 @@ geom::Result<VanishingDirections> FindVanishingDirections(std::span<const ImageL
   // The longest tell the most; more of them would only take longer to try.
   constexpr std::size_t kTried = 300;
   const std::span<const Stroke> tried(all.data(), std::min(kTried, all.size()));
-  const std::vector<Candidate> firsts = FirstDirections(tried, search, 20);
+  const std::vector<Candidate> firsts = FirstDirections(tried, search, std::size_t(Env("FIRST", 20)));
   const std::vector<Hypothesis> hypotheses =
-      Distinct(Hypotheses(tried, firsts, search.parallel_rad), 16);
+      Distinct(Hypotheses(tried, firsts, Env("VT", 1) * search.parallel_rad), std::size_t(Env("HYP", 16)));
   if (hypotheses.empty()) return Degenerate("no lines point along orthogonal directions");
   Fitted best{{}, -std::numeric_limits<double>::infinity()};
   for (const Hypothesis& h : hypotheses) {
-    const Fitted fitted = Refined(lines, all, frame, h, search.parallel_rad, 6);
+    const Fitted fitted = Refined(lines, all, frame, h, search.parallel_rad, int(Env("ROUNDS", 6)));
     if (fitted.score > best.score) best = fitted;
   }
   VanishingDirections found;
@@ -389,3 +395,12 @@ geom::Result<VanishingDirections> FindVanishingDirections(std::span<const ImageL
 }
 
 }  // namespace tranos::camera
+namespace tranos::camera {
+double DebugScore(std::span<const ImageLine> lines, const Frame& frame, const Camera& truth, const DirectionSearch& search, Camera* out) {
+  const auto all = StrokesOf(lines, ConditioningOf(frame));
+  Hypothesis h{CameraFromWorld(truth.parameters), truth[kFocal] / frame.pitch_mm().x() / ConditioningOf(frame).scale_px, 0};
+  auto f = Refined(lines, all, frame, h, search.parallel_rad, 6);
+  *out = f.camera;
+  return f.score;
+}
+}
