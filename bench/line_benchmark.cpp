@@ -39,6 +39,7 @@ Score Solve(const Known& known, std::vector<ImageLine> lines, const std::vector<
     ImageLine l = lines[i];
     if (mode == 0) l.tilt_sigma_px = std::hypot(l.tilt_sigma_px, floor * l.length_px());
     if (mode == 1) l = *FitImageLine({l.a_px, l.b_px}, 0.5, std::max(2.0, std::floor(l.length_px())));
+    if (mode == 3) { const double tilt = std::hypot(l.tilt_sigma_px, floor * l.length_px()); l = *FitImageLine({l.a_px, l.b_px}, 0.5, std::clamp(std::round(12 * 0.25 / (tilt * tilt)), 2.0, std::max(2.0, std::floor(l.length_px())))); }
     if (mode == 2) l = *FitImageLine({l.a_px, l.b_px}, 0.5);
     traced.photograph.traces.push_back(DirectionTrace{l, axis[i]});
   }
@@ -97,7 +98,7 @@ int main(int argc, char** argv) {
     Mat3 r = k.camera_from_world; if (r.determinant() < 0) r.col(1) = -r.col(1);
     auto axes = AxesOfLines(*lines, k.frame, CameraOf(kf, r, Vec3::Zero()), ds.parallel_rad);
     Score o = Solve(k, *lines, axes);
-    Camera g; double tg = DebugScore(*lines, k.frame, CameraOf(kf, r, Vec3::Zero()), ds, &g), tf = DebugScore(*lines, k.frame, v->camera, ds, &g); DebugScore(*lines, k.frame, CameraOf(kf, r, Vec3::Zero()), ds, &g); Score sg = Solve(k, *lines, AxesOfLines(*lines, k.frame, g, ds.parallel_rad)); c.push_back(sg); { std::vector<ImageLine> ll; std::vector<int> la; for (auto& g2 : k.segments) { auto l = FitImageLine({g2.a_px, g2.b_px}, 0.5); if (l) ll.push_back(*l), la.push_back(g2.axis); } lab.push_back(Solve(k, ll, la)); if (lab.back().horizon > 0.03 || sg.horizon > 0.03) fmt::print("   label dir {:.2f} hor {:.2f} ({:.1f} {:.1f} px) found ({:.1f} {:.1f})\n", lab.back().dir, 100*lab.back().horizon, lab.back().e0, lab.back().e1, s.e0, s.e1); } total += tg;
+    Camera g; double tg = DebugScore(*lines, k.frame, CameraOf(kf, r, Vec3::Zero()), ds, &g), tf = 0.0; DebugScore(*lines, k.frame, CameraOf(kf, r, Vec3::Zero()), ds, &g); Score sg = Solve(k, *lines, AxesOfLines(*lines, k.frame, g, ds.parallel_rad)); c.push_back(sg); { std::vector<ImageLine> ll; std::vector<int> la; for (auto& g2 : k.segments) { auto l = FitImageLine({g2.a_px, g2.b_px}, 0.5); if (l) ll.push_back(*l), la.push_back(g2.axis); } lab.push_back(Solve(k, ll, la)); if (lab.back().horizon > 0.03 || sg.horizon > 0.03) fmt::print("   label dir {:.2f} hor {:.2f} ({:.1f} {:.1f} px) found ({:.1f} {:.1f})\n", lab.back().dir, 100*lab.back().horizon, lab.back().e0, lab.back().e1, s.e0, s.e1); } total += tg;
     fmt::print("   score from truth {:.1f} (dir {:.2f} hor {:.2f} f {:.1f}) from found {:.1f}\n", tg, sg.dir, 100*sg.horizon, 100*sg.focal, tf);
     if (std::getenv("DRAW")) { Draw("/tmp/found.ppm", photo, *lines, v->axis, 2); Draw("/tmp/oracle.ppm", photo, *lines, axes, 2); }
     a.push_back(s); b.push_back(o);

@@ -358,7 +358,7 @@ std::vector<int> AxesOfLines(std::span<const ImageLine> lines, const Frame& fram
   std::vector<int> axes;
   for (const auto& b : belongs) {
     const auto best = std::ranges::max_element(b);
-    axes.push_back(*best > 0.5 ? static_cast<int>(best - b.begin()) : kNoAxis);
+    axes.push_back(*best > Env("THR", 0.5) ? static_cast<int>(best - b.begin()) : kNoAxis);
   }
   return axes;
 }
