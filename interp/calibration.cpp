@@ -8,6 +8,7 @@
 
 #include "camera/calibrate.h"
 #include "camera/dlt.h"
+#include "camera/estimation.h"
 #include "camera/orthocentre.h"
 #include "camera/paper_method.h"
 #include "camera/sweep.h"
@@ -119,6 +120,7 @@ geom::Result<std::vector<camera::Estimate>> EstimatesBy(const Method& method, co
                                                std::move(estimate.error())));
     }
     TellOpen(method, traced.photographs[p], numbers, &*estimate);
+    camera::AppendWeaknesses(traced.photographs[p], numbers, &estimate->camera, estimate->warnings);
     estimates.push_back(*std::move(estimate));
   }
   return estimates;
@@ -396,6 +398,7 @@ Value Machine::WithError(Value number) {
   if (!trial_) return number;
   const auto error = trial_->values.find(met);
   if (error == trial_->values.end()) return number;
+  sources_.back().tried = error->second;
   return Value::Uncertain({number.number() + error->second, *number.derivatives()},
                           number.dimension());
 }

@@ -103,6 +103,7 @@ struct Source;
 struct PhotographFile {
   model::Hash128 content;
   Eigen::Vector2i size_px;
+  std::shared_ptr<const camera::PhotoFile> picture = nullptr;  // null where no pixels are at hand
 };
 using PhotographFiles = std::map<std::string, PhotographFile>;  // read so far, by path
 struct Surroundings {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "camera/estimate.h"
+#include "camera/photo_file.h"
 #include "model/hash.h"
 #include "model/value.h"
 
@@ -20,6 +21,8 @@ struct Element;
 struct Photograph {
   std::string file;      // as the script gives it; "" for a stated camera
   Hash128 content = {};  // of the file's bytes
+  // Null for a stated camera, and in a replay, which needs no pixels.
+  std::shared_ptr<const camera::PhotoFile> picture = nullptr;
   camera::Frame frame = {};
   bool format_is_stated = true;  // else the longer side is taken for 36 mm
   camera::Prior priors[camera::kIntrinsics] = {};

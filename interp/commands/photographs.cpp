@@ -62,6 +62,28 @@ ElementPtr WithPhotograph(const model::Element& element, model::Photograph photo
                              std::make_shared<const model::Photograph>(std::move(photograph)));
 }
 
+tl::expected<camera::PhotoPtr, CommandError> PixelsOf(const model::Element& photograph) {
+  const model::Photograph& taken = PhotographOf(photograph);
+  if (taken.file.empty()) {
+    return Fail({.code = Code::kNoPhotograph,
+                 .message = fmt::format("{} is a stated camera: there is no photograph of it",
+                                        NameForMessage(photograph)),
+                 .help = "attach photo \"fire_1917.png\" format=40.5mm,26.7mm as fire"});
+  }
+  if (!taken.picture) {
+    return Fail({.code = Code::kCannotRead,
+                 .message = fmt::format("the pixels of {} are not at hand: a journal keeps none",
+                                        NameForMessage(photograph)),
+                 .help = "run the script itself"});
+  }
+  const auto pixels = taken.picture->Pixels();
+  if (pixels) return *pixels;
+  return Fail({.code = Code::kNoPhotograph,
+               .message = fmt::format("{} cannot be read to its end: {}",
+                                      NameForMessage(photograph), pixels.error().detail),
+               .help = "photographs are PNG, JPEG or TIFF"});
+}
+
 CommandError NoCameraYet(const model::Element& photograph) {
   return {.code = Code::kNotDetermined,
           .message = fmt::format("{} has no camera, or one that is not determined",

@@ -15,5 +15,9 @@ tl::expected<model::ElementPtr, CommandError> PhotographMeant(const model::State
 const model::Photograph& PhotographOf(const model::Element& element);
 model::ElementPtr WithPhotograph(const model::Element& element, model::Photograph photograph);
 CommandError NoCameraYet(const model::Element& photograph);
+// What is seen on a photograph: upright, 8 bits a channel, the same object however often it is
+// asked for in a run. Errors: kNoPhotograph (a stated camera, a damaged file), kCannotRead (a
+// replay, which has no pixels).
+tl::expected<camera::PhotoPtr, CommandError> PixelsOf(const model::Element& photograph);
 
 }  // namespace tranos::interp
