@@ -13,8 +13,8 @@ namespace {
 
 constexpr int kLongestSide = 2000;
 constexpr double kSmoothing_px = 1;
-// A mean over pixels along an edge that have been smoothed by a Gaussian is as uncertain as one over
-// so many times fewer independent ones: the integral of the correlation, 2√π σ.
+// A mean over pixels along an edge that have been smoothed by a Gaussian is as uncertain as one
+// over so many times fewer independent ones: the integral of the correlation, 2√π σ.
 const double kCorrelated = 2 * std::sqrt(kPi) * kSmoothing_px;
 constexpr int kReach = 3;  // across the edge, px: how far off a proposal may be, and a bit
 
@@ -28,10 +28,10 @@ struct Fit {
   ImageLine line;
   std::vector<EdgeDot> dots;
   double sum_of_weights = 0;
-  double spread = 0;    // Σ weight · (along)², px²
-  double scatter = 0;   // Σ weight · (across)²: variance of a dot, times its weight and their number
-  double from_px = 0;   // along the line, of the first dot, from the centre
-  double to_px = 0;     // of the last
+  double spread = 0;  // Σ weight · (along)², px²
+  double scatter = 0;  // Σ weight · (across)²: variance of a dot, times its weight and their number
+  double from_px = 0;  // along the line, of the first dot, from the centre
+  double to_px = 0;    // of the last
   bool bright_left = false;
 };
 
@@ -58,7 +58,8 @@ class Sampler {
   }
 
   bool Contains(const Vec2& p) const {
-    return p.x() >= 0 && p.y() >= 0 && p.x() <= image_.width_px - 1 && p.y() <= image_.height_px - 1;
+    return p.x() >= 0 && p.y() >= 0 && p.x() <= image_.width_px - 1 &&
+           p.y() <= image_.height_px - 1;
   }
 
  private:
@@ -94,7 +95,8 @@ bool AddDot(const Sampler& sample, const Slopes& slopes, double sign, double lea
   const double a = sign * slopes[best - 1], b = sign * slopes[best], c = sign * slopes[best + 1];
   if (b < least || a > b || c > b) return false;
   const double floor = 1e-3 * b;
-  const double la = std::log(std::max(a, floor)), lb = std::log(b), lc = std::log(std::max(c, floor));
+  const double la = std::log(std::max(a, floor)), lb = std::log(b),
+               lc = std::log(std::max(c, floor));
   const double bend = la - 2 * lb + lc;
   const double offset = bend < -1e-9 ? std::clamp(0.5 * (la - lc) / bend, -0.5, 0.5) : 0;
   const Vec2 dot = at + (best - kReach + offset) * normal, along(normal.y(), -normal.x());
@@ -115,7 +117,8 @@ bool FitDots(Fit& fit, std::size_t least) {
     double xx = 0, xy = 0, yy = 0;
     for (const EdgeDot& d : fit.dots) {
       const Vec2 p = d.at_px - centre;
-      xx += d.weight * p.x() * p.x(), xy += d.weight * p.x() * p.y(), yy += d.weight * p.y() * p.y();
+      xx += d.weight * p.x() * p.x(), xy += d.weight * p.x() * p.y(),
+          yy += d.weight * p.y() * p.y();
     }
     const double angle = 0.5 * std::atan2(2 * xy, xx - yy);
     Vec2 along(std::cos(angle), std::sin(angle));
@@ -146,8 +149,8 @@ bool FitDots(Fit& fit, std::size_t least) {
       fit.from_px = std::min(fit.from_px, t), fit.to_px = std::max(fit.to_px, t);
     }
     // As long as a line evenly covered with dots that spread as much, but not beyond them.
-    const double half = std::min(std::sqrt(3 * fit.spread / sum),
-                                 std::max(-fit.from_px, fit.to_px));
+    const double half =
+        std::min(std::sqrt(3 * fit.spread / sum), std::max(-fit.from_px, fit.to_px));
     fit.line.a_px = centre - half * along, fit.line.b_px = centre + half * along;
     fit.line.dots = static_cast<int>(fit.dots.size());
     return true;
@@ -247,6 +250,9 @@ bool MayContinue(const Fit& a, const Fit& b) {
 // Root mean square of the dots' distances from the line, px.
 double RootMeanSquare(const Fit& fit) { return std::sqrt(fit.scatter / fit.sum_of_weights); }
 
+// Dots of an edge that is straight do not wander farther; those found along nothing do.
+constexpr double kMostScatter_px = 0.5;
+
 // Pieces of one line joined, longest first.
 std::vector<Fit> Merged(std::vector<Fit> fits) {
   std::ranges::stable_sort(fits, std::greater<>(), LengthOf);
@@ -263,7 +269,7 @@ std::vector<Fit> Merged(std::vector<Fit> fits) {
         Fit joined = Joined(line, fits[j]);
         const std::size_t before = joined.dots.size();
         // A piece beside the line would be left out as an outlier, or bend it.
-        if (!FitDots(joined, before * 9 / 10) || RootMeanSquare(joined) > 0.75) continue;
+        if (!FitDots(joined, before * 9 / 10) || RootMeanSquare(joined) > kMostScatter_px) continue;
         line = std::move(joined);
         taken[j] = grown = true;
       }
@@ -307,7 +313,7 @@ geom::Result<std::vector<ImageLine>> DetectLines(const Photo& photo, const LineD
   const int factor = (longer + kLongestSide - 1) / kLongestSide;
   const double shorter = std::min(photo.width_px, photo.height_px);
   const double min_px =
-      (options.min_length_px > 0 ? options.min_length_px : 0.03 * shorter) / factor;
+      (options.min_length_px > 0 ? options.min_length_px : std::max(12.0, 0.03 * shorter)) / factor;
 
   const GreyImage grey = GreyOf(photo, factor);
   const GreyImage smooth = Smoothed(grey, kSmoothing_px);
@@ -321,7 +327,9 @@ geom::Result<std::vector<ImageLine>> DetectLines(const Photo& photo, const LineD
   }
   fits = Merged(std::move(fits));
   SetDeviations(fits);
-  std::erase_if(fits, [&](const Fit& f) { return LengthOf(f) < min_px; });
+  std::erase_if(fits, [&](const Fit& f) {
+    return LengthOf(f) < min_px || RootMeanSquare(f) > kMostScatter_px;
+  });
 
   std::vector<ImageLine> lines;
   for (const Fit& fit : fits) {

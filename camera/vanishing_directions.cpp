@@ -4,21 +4,23 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <random>
+#include <limits>
+#include <optional>
 
 #include "camera/conditioning.h"
+#include "camera/default_priors.h"
 #include "camera/likelihood.h"
+#include "camera/statistics.h"
 
 namespace tranos::camera {
 namespace {
 
 constexpr double kDegree = kPi / 180;
-double Env(const char* n, double d) { const char* s = std::getenv(n); return s ? atof(s) : d; }
 
 // A line in conditioned coordinates, as the angle to a vanishing point needs it.
 struct Stroke {
   Vec2 centre, normal;
-  Vec3 line;            // homogeneous
+  Vec3 line;  // homogeneous
   double half_length;
   double angle_sigma;   // rad, of the line alone
   double offset_sigma;  // of its centre, across
@@ -34,28 +36,51 @@ std::vector<Stroke> StrokesOf(std::span<const ImageLine> lines, const Conditioni
                        0.5 * (b - a).norm(), line.tilt_sigma_px / line.length_px(),
                        line.centre_sigma_px / conditioning.scale_px, (b - a).norm()});
   }
+  // A long edge says more of its direction than the pieces of a pattern, but not in proportion: how
+  // parallel a building's edges are does not hang on their length.
   std::vector<double> lengths;
-  for (const Stroke& s : strokes) lengths.push_back(s.weight);
-  std::ranges::sort(lengths);
-  for (Stroke& s : strokes) s.weight = std::pow(std::min(s.weight / lengths[lengths.size() / 2], 10.0), Env("EXPO", 0.5));
+  for (const Stroke& s : strokes) lengths.push_back(s.half_length);
+  std::ranges::nth_element(lengths,
+                           lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2));
+  const double median = lengths.empty() ? 1 : lengths[lengths.size() / 2];
+  for (Stroke& s : strokes) s.weight = std::sqrt(std::min(s.half_length / median, 10.0));
   return strokes;
 }
 
-// How much likelier a line is of the direction with vanishing point `v` than of none, for which all
-// angles are alike, if both were as frequent.
-double Evidence(const Stroke& stroke, const Vec3& v, double parallel_rad) {
+// Angles between an edge of a building and its direction, over their deviation, have long tails:
+// Student's t with three degrees of freedom.
+constexpr double kFreedom = 3;
+double Density(double z2) {
+  const double height = 2 / (kPi * std::sqrt(kFreedom)), fall = 1 + z2 / kFreedom;
+  return height / (fall * fall);
+}
+
+// The angle between a line and the direction from its centre to a vanishing point.
+struct Miss {
+  double z2;         // its square over its variance
+  double sigma_rad;  // its deviation
+};
+
+// Nothing where the vanishing point is within the line: it is none of it.
+std::optional<Miss> MissOf(const Stroke& stroke, const Vec3& v, double parallel_rad) {
   const Vec2 to = v.head<2>() - v.z() * stroke.centre;
   const double distance = to.norm();
-  // A vanishing point within the line is none of it.
-  if (distance <= std::abs(v.z()) * stroke.half_length) return 0;
+  if (distance <= std::abs(v.z()) * stroke.half_length) return std::nullopt;
   const double sine = stroke.normal.dot(to) / distance;
-  const double offset = stroke.offset_sigma * v.z() / distance;
-  const double variance = stroke.angle_sigma * stroke.angle_sigma + parallel_rad * parallel_rad +
-                          offset * offset;
-  const double z2 = sine * sine / variance;
-  if (z2 > 25) return 0;
-  return std::sqrt(kPi / (2 * variance)) * std::exp(-0.5 * z2);
+  const double sigma =
+      std::hypot(stroke.angle_sigma, parallel_rad, stroke.offset_sigma * v.z() / distance);
+  return Miss{sine * sine / (sigma * sigma), sigma};
 }
+
+// How much likelier a line is of a direction than of none, for which all angles are alike, if both
+// were as frequent.
+double Evidence(const std::optional<Miss>& miss) {
+  return miss ? Density(miss->z2) * kPi / miss->sigma_rad : 0;
+}
+
+// By which least squares is to weigh a residual that is distributed so (Lange, Little and Taylor
+// 1989).
+double WeightOf(const Miss& miss) { return (kFreedom + 1) / (kFreedom + miss.z2); }
 
 // ---- the first direction
 
@@ -66,7 +91,8 @@ struct Candidate {
 
 double ScoreOf(std::span<const Stroke> strokes, const Vec3& v, double parallel_rad) {
   double score = 0;
-  for (const Stroke& s : strokes) score += s.weight * std::log1p(Evidence(s, v, parallel_rad));
+  for (const Stroke& s : strokes)
+    score += s.weight * std::log1p(Evidence(MissOf(s, v, parallel_rad)));
   return score;
 }
 
@@ -75,12 +101,13 @@ Vec3 Polished(std::span<const Stroke> strokes, Vec3 v, double parallel_rad) {
   for (int i = 0; i < 3; ++i) {
     Mat3 scatter = Mat3::Zero();
     for (const Stroke& s : strokes) {
-      const double evidence = Evidence(s, v, parallel_rad);
+      const auto miss = MissOf(s, v, parallel_rad);
+      const double evidence = Evidence(miss);
       if (evidence < 1e-3) continue;
       const double distance = (v.head<2>() - v.z() * s.centre).norm();
-      const double sigma =
-          std::hypot(s.offset_sigma * v.z(), distance * std::hypot(s.angle_sigma, parallel_rad));
-      scatter += evidence / (1 + evidence) / (sigma * sigma) * s.line * s.line.transpose();
+      const double sigma = distance * miss->sigma_rad;
+      scatter += evidence / (1 + evidence) * WeightOf(*miss) / (sigma * sigma) * s.line *
+                 s.line.transpose();
     }
     const Eigen::SelfAdjointEigenSolver<Mat3> eigen(scatter);
     v = eigen.eigenvectors().col(0);
@@ -92,11 +119,14 @@ std::vector<Candidate> FirstDirections(std::span<const Stroke> strokes,
                                        const DirectionSearch& search, std::size_t most) {
   constexpr int kPairs = 1500;
   const double tolerance = 2 * search.parallel_rad;
-  std::mt19937_64 random(search.seed);
+  UniformNumbers random(search.seed);
+  const auto any = [&]() -> const Stroke& {
+    return strokes[static_cast<std::size_t>(random.Next() * static_cast<double>(strokes.size()))];
+  };
   std::vector<Candidate> drawn;
   for (int i = 0; i < kPairs; ++i) {
-    const Stroke& a = strokes[random() % strokes.size()];
-    const Stroke& b = strokes[random() % strokes.size()];
+    const Stroke& a = any();
+    const Stroke& b = any();
     const Vec3 v = a.line.cross(b.line);
     if (!(v.norm() > 1e-6)) continue;
     const Vec3 unit = v.normalized();
@@ -131,8 +161,8 @@ struct Hypothesis {
 
 constexpr int kTurns = 90;  // of a degree
 
-// What each turn about the first direction scores: lines that point at the first count for that, the
-// others where they put one of the other two directions.
+// What each turn about the first direction scores: lines that point at the first count for that,
+// the others where they put one of the other two directions.
 std::array<double, kTurns> VotesFor(std::span<const Stroke> strokes,
                                     std::span<const double> first_gain, double focal,
                                     const Vec3& d1, const Vec3& u, const Vec3& w,
@@ -154,17 +184,18 @@ std::array<double, kTurns> VotesFor(std::span<const Stroke> strokes,
     const double rate =
         std::abs(s.normal.dot(by_turn.head<2>() - by_turn.z() * s.centre)) / distance;
     const double sigma = std::hypot(s.angle_sigma, parallel_rad, s.offset_sigma * v.z() / distance);
-    const double peak = std::sqrt(kPi / 2) / sigma;
+    const double peak = kPi / sigma;
     // Turns that differ by less than a bin are one.
     const double width = std::min(std::hypot(sigma / std::max(rate, 1e-9), 0.3 * kDegree), 1.5);
     if (width > 10 * kDegree) continue;
     const double at = std::atan2(direction.dot(w), direction.dot(u)) / kDegree;
-    const int reach = static_cast<int>(std::ceil(3 * width / kDegree));
+    const int reach = static_cast<int>(std::ceil(4 * width / kDegree));
     const int middle = static_cast<int>(std::floor(at));
     for (int t = middle - reach; t <= middle + reach; ++t) {
       const double z = (t + 0.5 - at) * kDegree / width;
-      const double gain = std::log1p(peak * std::exp(-0.5 * z * z)) - first_gain[i];
-      if (gain > 0) votes[static_cast<std::size_t>(((t % kTurns) + kTurns) % kTurns)] += s.weight * gain;
+      const double gain = std::log1p(peak * Density(z * z)) - first_gain[i];
+      if (gain > 0)
+        votes[static_cast<std::size_t>(((t % kTurns) + kTurns) % kTurns)] += s.weight * gain;
     }
   }
   return votes;
@@ -179,7 +210,8 @@ std::vector<Hypothesis> Hypotheses(std::span<const Stroke> strokes,
   for (const Candidate& first : firsts) {
     double base = 0;
     for (std::size_t i = 0; i < strokes.size(); ++i)
-      gain[i] = std::log1p(Evidence(strokes[i], first.point, parallel_rad)), base += strokes[i].weight * gain[i];
+      gain[i] = std::log1p(Evidence(MissOf(strokes[i], first.point, parallel_rad))),
+      base += strokes[i].weight * gain[i];
     for (double focal = kShortest; focal < kLongest; focal *= kStep) {
       const Vec3 d1 =
           Vec3(first.point.x() / focal, first.point.y() / focal, first.point.z()).normalized();
@@ -233,8 +265,9 @@ Mat3 WithAxesNamed(const Mat3& r) {
   for (int i = 1; i < 3; ++i) {
     if (std::abs(r(1, i)) > std::abs(r(1, z))) z = i;
   }
-  int x = (z + 1) % 3, y = (z + 2) % 3;
-  if (std::abs(r(2, x)) > std::abs(r(2, y))) std::swap(x, y);
+  int x = (z + 1) % 3;
+  const int y = (z + 2) % 3;
+  if (std::abs(r(2, x)) > std::abs(r(2, y))) x = y;
   Mat3 named;
   named.col(2) = r(1, z) > 0 ? Vec3(-r.col(z)) : Vec3(r.col(z));
   named.col(0) = r(0, x) < 0 ? Vec3(-r.col(x)) : Vec3(r.col(x));
@@ -242,18 +275,9 @@ Mat3 WithAxesNamed(const Mat3& r) {
   return named;
 }
 
-Photograph WithDefaultPriors(const Frame& frame) {
-  Photograph photograph;
-  photograph.frame = frame;
-  photograph.priors[kAspect] = {1, 0.03};
-  photograph.priors[kPrincipalX] = {0, 0.05 * frame.size_mm.x()};
-  photograph.priors[kPrincipalY] = {0, 0.05 * frame.size_mm.y()};
-  photograph.priors[kSkew] = {kPi / 2, kDegree};
-  return photograph;
-}
-
 // Vanishing points of the three axes, conditioned.
-Mat3 PointsOf(const Camera& camera, const Frame& frame, const Conditioning& conditioning) {
+Mat3 PointsOf(const Camera& camera, const Frame& frame) {
+  const Conditioning conditioning = ConditioningOf(frame);
   Mat3 conditioned_from_dot = Mat3::Identity();
   conditioned_from_dot.topLeftCorner<2, 2>() /= conditioning.scale_px;
   conditioned_from_dot.topRightCorner<2, 1>() = -conditioning.centre_px / conditioning.scale_px;
@@ -266,79 +290,129 @@ struct Mixture {
   double log_likelihood = 0;                        // above that of lines of no direction
 };
 
+// What a line may be of an axis, and with which weight it then counts.
+struct Membership {
+  double probability = 0;
+  double weight = 0;
+};
+using Memberships = std::vector<std::array<Membership, 3>>;
+
 // What each line is, by its probabilities; the shares and the likelihood follow.
-std::vector<std::array<double, 3>> Expect(std::span<const Stroke> strokes, const Mat3& points,
-                                          double parallel_rad, Mixture& mixture) {
-  std::vector<std::array<double, 3>> belongs(strokes.size());
+Memberships Expect(std::span<const Stroke> strokes, const Mat3& points, double parallel_rad,
+                   Mixture& mixture) {
+  Memberships belongs(strokes.size());
   std::array<double, 4> sums{1, 1, 1, 1};
   mixture.log_likelihood = 0;
   for (std::size_t i = 0; i < strokes.size(); ++i) {
-    double all = mixture.share[3];
+    double all = mixture.share[3], none = 1;
     for (int k = 0; k < 3; ++k) {
-      belongs[i][k] = mixture.share[k] * Evidence(strokes[i], points.col(k), parallel_rad);
-      all += belongs[i][k];
+      const auto miss = MissOf(strokes[i], points.col(k), parallel_rad);
+      belongs[i][k] = {mixture.share[k] * Evidence(miss), miss ? WeightOf(*miss) : 0};
+      all += belongs[i][k].probability;
     }
     mixture.log_likelihood += strokes[i].weight * std::log(all);
-    double none = 1;
-    for (int k = 0; k < 3; ++k) belongs[i][k] /= all, none -= belongs[i][k], sums[k] += belongs[i][k];
+    for (int k = 0; k < 3; ++k) {
+      belongs[i][k].probability /= all;
+      none -= belongs[i][k].probability;
+      sums[k] += belongs[i][k].probability;
+    }
     sums[3] += none;
   }
   for (int k = 0; k < 4; ++k) mixture.share[k] = sums[k] / static_cast<double>(strokes.size() + 4);
   return belongs;
 }
 
+// The probabilities when the shares are those of the picture, which its vanishing points settle in
+// a few rounds.
+Memberships Settled(std::span<const Stroke> strokes, const Mat3& points, double parallel_rad,
+                    Mixture& mixture) {
+  Expect(strokes, points, parallel_rad, mixture);
+  Expect(strokes, points, parallel_rad, mixture);
+  return Expect(strokes, points, parallel_rad, mixture);
+}
+
+void AddDirections(std::span<const ImageLine> lines, const Memberships& belongs,
+                   double parallel_rad, Photograph& photograph) {
+  constexpr double kLeast = 0.1;  // below that a line would only take time
+  photograph.traces.clear();
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const Membership& m = belongs[i][axis];
+      if (m.probability < kLeast) continue;
+      DirectionTrace trace{AsParallel(lines[i], parallel_rad), axis};
+      const double weaker = 1 / std::sqrt(m.probability * m.weight);
+      trace.line.centre_sigma_px *= weaker, trace.line.tilt_sigma_px *= weaker;
+      photograph.traces.push_back(trace);
+    }
+  }
+}
+
 struct Fitted {
   Camera camera;
-  double score;
+  double score = -std::numeric_limits<double>::infinity();
 };
-
-double PenaltyOf(const Photograph& photograph, const Camera& camera) {
-  double chi2 = 0;
-  for (int i = 1; i < kIntrinsics; ++i) {
-    const Prior& prior = photograph.priors[i];
-    chi2 += std::pow((camera.parameters[i] - prior.value) / prior.sigma, 2);
-  }
-  return chi2;
-}
 
 // Expectation and maximisation from a hypothesis, with a tolerance that narrows.
 Fitted Refined(std::span<const ImageLine> lines, std::span<const Stroke> strokes,
-               const Frame& frame, const Hypothesis& start, double parallel_rad, int rounds) {
-  const Conditioning conditioning = ConditioningOf(frame);
-  Photograph photograph = WithDefaultPriors(frame);
-  Mat3 k = Vec3(start.focal, start.focal, 1).asDiagonal();
-  k = FrameFromConditioned(frame) * k;
+               const Frame& frame, const Hypothesis& start, double parallel_rad) {
+  constexpr std::array<double, 6> kTolerances{2, 1.5, 1, 1, 1, 1};
+  Photograph photograph;
+  photograph.frame = frame;
+  std::ranges::copy(DefaultPriors(frame), photograph.priors);
+  Mat3 k = FrameFromConditioned(frame) * Vec3(start.focal, start.focal, 1).asDiagonal();
   k(0, 0) = k(1, 1) = 0.5 * (k(0, 0) + k(1, 1));
   Camera camera = CameraOf(k, WithAxesNamed(start.camera_from_world), Vec3::Zero());
   Mixture mixture;
-  for (int round = 0; round < rounds; ++round) {
-    const double tolerance = parallel_rad * (round == 0 ? Env("T0", 2) : round == 1 ? 1.5 : 1);
-    const auto belongs =
-        Expect(strokes, PointsOf(camera, frame, conditioning), tolerance, mixture);
-    photograph.traces.clear();
-    for (std::size_t i = 0; i < lines.size(); ++i) {
-      for (int axis = 0; axis < 3; ++axis) {
-        if (belongs[i][axis] < 0.1) continue;
-        DirectionTrace trace{lines[i], axis};
-        const double weaker = 1 / std::sqrt(belongs[i][axis]);
-        trace.line.centre_sigma_px *= weaker;
-        trace.line.tilt_sigma_px =
-            weaker * std::hypot(lines[i].tilt_sigma_px, tolerance * lines[i].length_px());
-        photograph.traces.push_back(trace);
-      }
-    }
+  for (const double wider : kTolerances) {
+    const double tolerance = wider * parallel_rad;
+    AddDirections(lines, Expect(strokes, PointsOf(camera, frame), tolerance, mixture), tolerance,
+                  photograph);
     // Holds a focal length that nothing determines near where it is.
     photograph.priors[kFocal] = {camera[kFocal], 0.5 * camera[kFocal]};
     const CameraFit fit = FitCamera(photograph, {}, camera);
-    const double focal = fit.camera[kFocal];
-    if (!fit.camera.parameters.allFinite() || !(focal > 0.1 * frame.size_mm.x()) ||
-        !(focal < 30 * frame.size_mm.x()))
+    if (!fit.camera.parameters.allFinite() || !(fit.camera[kFocal] > 0.1 * frame.size_mm.x()) ||
+        !(fit.camera[kFocal] < 30 * frame.size_mm.x()))
       break;
     camera = fit.camera;
   }
-  Expect(strokes, PointsOf(camera, frame, conditioning), parallel_rad, mixture);
-  Expect(strokes, PointsOf(camera, frame, conditioning), parallel_rad, mixture);
-  return {camera, mixture.log_likelihood * Env("TEMPER", 1) - 0.5 * PenaltyOf(photograph, camera) - 0.5 * std::pow(std::log(camera[kFocal] / (1.2 * std::max(frame.size_mm.x(), frame.size_mm.y()))) / Env("FSIG", 100), 2)};
+  Settled(strokes, PointsOf(camera, frame), parallel_rad, mixture);
+  double penalty = 0;  // of the priors
+  for (int i = kAspect; i < kIntrinsics; ++i) {
+    const Prior& prior = photograph.priors[i];
+    penalty += std::pow((camera.parameters[i] - prior.value) / prior.sigma, 2);
+  }
+  return {camera, mixture.log_likelihood - 0.5 * penalty};
+}
+
+// Whether so many lines point at one vanishing point although lines of all angles, of which each
+// would by chance with the given probability, are all there is. Fewer than one such point in ten
+// pictures is to be found among all pairs of `all` lines, by Chernoff's bound of the tail (von Gioi
+// and others: a contrario).
+bool IsMoreThanChance(int count, double expected, std::size_t all) {
+  if (count < 3 || count <= expected) return false;
+  const double pairs = 0.5 * static_cast<double>(all) * static_cast<double>(all - 1);
+  const double tail = count * std::log(expected / count) + count - expected;
+  return std::log(pairs) + tail < std::log(0.1);
+}
+
+// Which axes have more lines than chance; each is judged by the lines that are of no other axis.
+std::array<bool, 3> SeenAxes(std::span<const Stroke> strokes, const Mat3& points,
+                             const std::vector<int>& axis, double parallel_rad) {
+  constexpr double kNear = 3;  // deviations
+  std::array<bool, 3> seen{};
+  for (int k = 0; k < 3; ++k) {
+    int count = 0;
+    double expected = 0;
+    for (std::size_t i = 0; i < strokes.size(); ++i) {
+      if (axis[i] != k && axis[i] != kNoAxis) continue;
+      const auto miss = MissOf(strokes[i], points.col(k), parallel_rad);
+      if (!miss) continue;
+      expected += std::min(1.0, 2 * kNear * miss->sigma_rad / kPi);
+      count += miss->z2 < kNear * kNear;
+    }
+    seen[k] = IsMoreThanChance(count, expected, strokes.size());
+  }
+  return seen;
 }
 
 tl::unexpected<geom::Error> Degenerate(const char* detail) {
@@ -347,18 +421,19 @@ tl::unexpected<geom::Error> Degenerate(const char* detail) {
 
 }  // namespace
 
+ImageLine AsParallel(ImageLine line, double parallel_rad) {
+  line.tilt_sigma_px = std::hypot(line.tilt_sigma_px, parallel_rad * line.length_px());
+  return line;
+}
+
 std::vector<int> AxesOfLines(std::span<const ImageLine> lines, const Frame& frame,
                              const Camera& camera, double parallel_rad) {
-  const Conditioning conditioning = ConditioningOf(frame);
-  const std::vector<Stroke> strokes = StrokesOf(lines, conditioning);
-  const Mat3 points = PointsOf(camera, frame, conditioning);
+  const std::vector<Stroke> strokes = StrokesOf(lines, ConditioningOf(frame));
   Mixture mixture;
-  std::vector<std::array<double, 3>> belongs;
-  for (int i = 0; i < 3; ++i) belongs = Expect(strokes, points, parallel_rad, mixture);
   std::vector<int> axes;
-  for (const auto& b : belongs) {
-    const auto best = std::ranges::max_element(b);
-    axes.push_back(*best > Env("THR", 0.5) ? static_cast<int>(best - b.begin()) : kNoAxis);
+  for (const auto& line : Settled(strokes, PointsOf(camera, frame), parallel_rad, mixture)) {
+    const auto best = std::ranges::max_element(line, {}, &Membership::probability);
+    axes.push_back(best->probability > 0.5 ? static_cast<int>(best - line.begin()) : kNoAxis);
   }
   return axes;
 }
@@ -369,38 +444,29 @@ geom::Result<VanishingDirections> FindVanishingDirections(std::span<const ImageL
   if (lines.size() < 4) return Degenerate("there are fewer than four lines");
   const std::vector<Stroke> all = StrokesOf(lines, ConditioningOf(frame));
   // The longest tell the most; more of them would only take longer to try.
-  constexpr std::size_t kTried = 300;
+  constexpr std::size_t kTried = 300, kFirsts = 12, kRefined = 8;
   const std::span<const Stroke> tried(all.data(), std::min(kTried, all.size()));
-  const std::vector<Candidate> firsts = FirstDirections(tried, search, std::size_t(Env("FIRST", 20)));
-  const std::vector<Hypothesis> hypotheses =
-      Distinct(Hypotheses(tried, firsts, Env("VT", 1) * search.parallel_rad), std::size_t(Env("HYP", 16)));
-  if (hypotheses.empty()) return Degenerate("no lines point along orthogonal directions");
-  Fitted best{{}, -std::numeric_limits<double>::infinity()};
-  for (const Hypothesis& h : hypotheses) {
-    const Fitted fitted = Refined(lines, all, frame, h, search.parallel_rad, int(Env("ROUNDS", 6)));
+  Fitted best;
+  for (const Hypothesis& h :
+       Distinct(Hypotheses(tried, FirstDirections(tried, search, kFirsts), search.parallel_rad),
+                kRefined)) {
+    const Fitted fitted = Refined(lines, all, frame, h, search.parallel_rad);
     if (fitted.score > best.score) best = fitted;
   }
+  const char* const kNone = "fewer than two directions have more lines than chance would give them";
+  if (!std::isfinite(best.score)) return Degenerate(kNone);
+
   VanishingDirections found;
-  found.camera = best.camera;
-  const Mat3 k = FrameFromCamera(best.camera.parameters);
-  found.camera = CameraOf(k, WithAxesNamed(CameraFromWorld(best.camera.parameters)), Vec3::Zero());
+  found.camera = CameraOf(FrameFromCamera(best.camera.parameters),
+                          WithAxesNamed(CameraFromWorld(best.camera.parameters)), Vec3::Zero());
   found.axis = AxesOfLines(lines, frame, found.camera, search.parallel_rad);
-  for (const int axis : found.axis) {
+  found.is_seen = SeenAxes(all, PointsOf(found.camera, frame), found.axis, search.parallel_rad);
+  for (int& axis : found.axis) {
+    if (axis != kNoAxis && !found.is_seen[axis]) axis = kNoAxis;
     if (axis != kNoAxis) ++found.lines[axis];
   }
-  for (int i = 0; i < 3; ++i) found.is_seen[i] = found.lines[i] >= 3;
-  if (found.directions() < 2)
-    return Degenerate("fewer than two directions have enough lines to be told from chance");
+  if (found.directions() < 2) return Degenerate(kNone);
   return found;
 }
 
 }  // namespace tranos::camera
-namespace tranos::camera {
-double DebugScore(std::span<const ImageLine> lines, const Frame& frame, const Camera& truth, const DirectionSearch& search, Camera* out) {
-  const auto all = StrokesOf(lines, ConditioningOf(frame));
-  Hypothesis h{CameraFromWorld(truth.parameters), truth[kFocal] / frame.pitch_mm().x() / ConditioningOf(frame).scale_px, 0};
-  auto f = Refined(lines, all, frame, h, search.parallel_rad, 6);
-  *out = f.camera;
-  return f.score;
-}
-}
