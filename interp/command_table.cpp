@@ -23,6 +23,7 @@ std::vector<Command> Collect() {
         EditCommands(),      OffsetCommands(),         CutCommands(),          CornerCommands(),
         ConstructCommands(), ConstructSolidCommands(), SolidBooleanCommands(), SymmetryCommands(),
         PlaneCommands(),     ViewCommands(),           OutputCommands(),       PhotographCommands(),
+        FacadeCommands(),
         PriorCommands(),     TraceCommands(),          CalibrateCommands(),    HistoryCommands(),
         LaterCommands()}) {
     all.insert(all.end(), family.begin(), family.end());
