@@ -33,8 +33,7 @@ interp::Host HostFor(Sandbox* sandbox, bool print_to_error, Progress* progress) 
             if (progress) progress->Hide();
             const std::string text = std::string(line) + "\n";
             print_to_error ? PrintError(text) : PrintOut(text);
-          },
-          nullptr};
+          }};
 }
 
 int StatusOf(const interp::ScriptResult& result) {

@@ -68,10 +68,11 @@ int GalleryVerb(const GalleryOptions& options);
 
 struct SoakOptions {
   std::vector<std::string> names;  // families or elements; none: all
-  std::string folder;  // of the library's files; "": those that the program was built of
-  int settings = 200;  // random ones of each element and detail, besides the defaults
+  std::string folder;      // of the library's files; "": those that the program was built of
+  int settings = 200;      // random ones of each element and detail, besides the defaults
   bool corners = true;     // and the ends of the ranges
   bool crossings = false;  // whether solids at the defaults cross themselves, which takes its time
+  bool crossings_everywhere = false;  // and those at all other settings
   std::uint64_t seed = 1;
 };
 int SoakVerb(const SoakOptions& options);

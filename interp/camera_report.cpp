@@ -161,7 +161,7 @@ std::vector<std::string> PhotographMembers() {
 
 std::vector<std::string> CameraReport(const model::Element& element, const Photograph& photograph) {
   const camera::Estimate& estimate = *photograph.estimate;
-  const bool stated = !photograph.attached;
+  const bool stated = photograph.file.empty();
   std::vector<std::string> lines;
   lines.push_back(fmt::format(
       "camera {}: {} × {} px, {:g} mm × {:g} mm{}", element.name_or_empty(),

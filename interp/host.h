@@ -3,17 +3,9 @@
 #pragma once
 
 #include <functional>
-#include <memory>
 #include <string>
 #include <string_view>
 #include <tl/expected.hpp>
-
-namespace tranos::camera {
-struct Photo;
-}
-namespace tranos::model {
-struct PhotoRequest;
-}
 
 namespace tranos::interp {
 
@@ -27,11 +19,6 @@ struct Host {
   std::function<tl::expected<std::string, HostError>(std::string_view path)> read;
   // Shows a line of `print` as it happens.
   std::function<void(std::string_view line)> print;
-  // A photograph of the model as a camera would take it, or why there is none. Null in a replay,
-  // which needs no pixels.
-  std::function<tl::expected<std::shared_ptr<const camera::Photo>, std::string>(
-      const model::PhotoRequest& request)>
-      render_photo;
 };
 
 }  // namespace tranos::interp

@@ -41,7 +41,7 @@ Machine::Machine(const Program& program, const RunOptions& options, const Host& 
     : program_(program),
       options_(options),
       outer_host_(host),
-      host_{host.read, [this](std::string_view line) { Print(line); }, host.render_photo},
+      host_{host.read, [this](std::string_view line) { Print(line); }},
       budget_(options.limits) {
   if (options.on_progress) budget_.on_progress = &options.on_progress;
   unsolved_ = program.calibrates;

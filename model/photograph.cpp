@@ -21,7 +21,7 @@ double Rounded(double number) {
 }  // namespace
 
 void AddToHash(Hasher& hasher, const Photograph& photograph) {
-  hasher.Text(photograph.file).Hash(photograph.content).Tag(photograph.attached);
+  hasher.Text(photograph.file).Hash(photograph.content);
   const auto& [size_mm, size_px] = photograph.frame;
   hasher.Ratio(size_mm.x()).Ratio(size_mm.y()).Integer(size_px.x()).Integer(size_px.y());
   for (const camera::Prior& prior : photograph.priors) {

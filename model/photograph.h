@@ -19,11 +19,10 @@ struct Element;
 
 // A photograph, or a camera that was stated without one.
 struct Photograph {
-  std::string file;      // as the script gives it; "" for a stated camera, or one made by rendering
-  Hash128 content = {};  // of the file's bytes, or of all that a rendered one was made from
+  std::string file;      // as the script gives it; "" for a stated camera
+  Hash128 content = {};  // of the file's bytes
   // Null for a stated camera, and in a replay, which needs no pixels.
   std::shared_ptr<const camera::PhotoFile> picture = nullptr;
-  bool attached = false;  // what `calibrate` adjusts; a rendered one is not until it is attached
   camera::Frame frame = {};
   bool format_is_stated = true;  // else the longer side is taken for 36 mm
   camera::Prior priors[camera::kIntrinsics] = {};

@@ -64,7 +64,7 @@ ElementPtr WithPhotograph(const model::Element& element, model::Photograph photo
 
 tl::expected<camera::PhotoPtr, CommandError> PixelsOf(const model::Element& photograph) {
   const model::Photograph& taken = PhotographOf(photograph);
-  if (!taken.picture && taken.file.empty()) {
+  if (taken.file.empty()) {
     return Fail({.code = Code::kNoPhotograph,
                  .message = fmt::format("{} is a stated camera: there is no photograph of it",
                                         NameForMessage(photograph)),
