@@ -45,7 +45,7 @@ class Beside {
       const bool names_facade = std::find(std::begin(kFacadeKeys), std::end(kFacadeKeys), key) !=
                                 std::end(kFacadeKeys);
       if (!names_facade || !value.is_string()) continue;
-      if (const ElementPtr facade = FindFacade(before, value.string())) Note(facade);
+      if (const ElementPtr facade = model::FindFacade(before.model, value.string())) Note(facade);
     }
     if (row.dots) {
       if (const auto photograph = CameraMeant(before, answers)) NoteCamera(*photograph);
@@ -150,7 +150,7 @@ std::optional<int> CarryDeviations(const Command& row, const State& before, cons
   int times = 0;
   for (const SourceId source : beside.sources()) {
     if (source >= sources.size() || !(sources[source].sigma > 0)) continue;
-    const double step = kMovedBy * sources[source].sigma;
+    const double step = model::kMovedBy * sources[source].sigma;
     const CommandResult forward = beside.Fired(source, step), back = beside.Fired(source, -step);
     times += 2;
     for (const CommandResult* side : {&forward, &back}) {

@@ -9,6 +9,7 @@
 #include "interp/camera_report.h"
 #include "interp/differences.h"
 #include "interp/value_support.h"
+#include "model/covariance.h"
 
 namespace tranos::interp {
 
@@ -331,7 +332,7 @@ std::optional<Value> OwnMember(const CallContext& context, const ElementPtr& nam
 }
 
 std::vector<std::string> OwnMembers(const Element& element) {
-  if (std::holds_alternative<model::Point>(element.geometry)) return {"position", "x", "y", "z"};
+  if (std::holds_alternative<model::Point>(element.geometry)) return {"position", "x", "y", "z", "covariance"};
   if (const geom::Curve* curve = CurveOf(element)) return CurveMembers(*curve);
   if (SurfaceOf(element)) return {"point(u, v)", "normal(u, v)"};
   if (SolidOf(element)) return {std::begin(kSolidMembers), std::end(kSolidMembers)};
@@ -401,6 +402,19 @@ Value Face(const CallContext& context, const ElementPtr& element, Arguments argu
   FailMember(WithArticle(prototype.words), arguments[0].string(), names);
 }
 
+// Rows of the covariance of a point's coordinates: zeros where it hangs on nothing uncertain.
+Value CovarianceValue(const Element& point) {
+  const Eigen::Matrix3d covariance =
+      model::CovarianceOf(point).value_or(Eigen::Matrix3d(Eigen::Matrix3d::Zero()));
+  std::vector<Value> rows;
+  for (int i = 0; i < 3; ++i) {
+    std::vector<Value> row;
+    for (int j = 0; j < 3; ++j) row.push_back(Value::Number(covariance(i, j), model::kArea));
+    rows.push_back(Value::List(std::move(row)));
+  }
+  return Value::List(std::move(rows));
+}
+
 Value MethodOf(const CallContext& context, const ElementPtr& element, std::string_view name,
                Arguments arguments) {
   if (const geom::Curve* curve = CurveOf(*element); curve && name == "at") {
@@ -427,6 +441,8 @@ Value MethodOf(const CallContext& context, const ElementPtr& element, std::strin
 
 Value ElementMember(const CallContext& context, const ElementPtr& named, std::string_view name) {
   const ElementPtr current = CurrentElement(*context.state, named);
+  const bool is_point = std::holds_alternative<model::Point>(current->geometry);
+  if (is_point && name == "covariance") return CovarianceValue(*current);
   return ReadOff(current, [&](const ElementPtr& element) {
     if (std::optional<Value> own = OwnMember(context, element, name)) return *std::move(own);
     for (const Row& row : kMeasures) {

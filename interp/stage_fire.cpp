@@ -279,7 +279,8 @@ ElementPtr Stage::Drawn(const model::Element& placed) const {
   const model::Instance& instance = *std::get<model::InstancePtr>(placed.geometry);
   std::vector<model::Moved> moved;
   for (const auto& [source, term] : active_.point_terms[0]) {
-    const double step = kMovedBy * (*links_.sources)[source].sigma;
+    const double step = model::kMovedBy * (*links_.sources)[source].sigma;
+    if (!(step > 0)) continue;
     const auto beside = [&](double by) {
       model::Instance aside = instance;
       aside.world_from_prototype.pretranslate(by * term);

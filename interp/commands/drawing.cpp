@@ -16,13 +16,10 @@ namespace tranos::interp {
 using geom::Vec2;
 using geom::Vec3;
 using model::ElementPtr;
+using model::FacadeOf;
 using model::State;
 
 namespace {
-
-bool IsFacade(const model::Element& element) {
-  return std::holds_alternative<model::FacadePtr>(element.geometry);
-}
 
 // The largest deviation in any direction, by the terms of the camera, the facade and the dot.
 double LargestDeviation(const Eigen::Matrix3d& covariance) {
@@ -47,18 +44,6 @@ void AddFacadeTerms(const model::Element& facade, const camera::DrawnPoint& draw
 
 }  // namespace
 
-const model::Facade& FacadeOf(const model::Element& element) {
-  return *std::get<model::FacadePtr>(element.geometry);
-}
-
-ElementPtr FindFacade(const State& state, std::string_view name) {
-  ElementPtr found;
-  state.model.ForEach([&](const ElementPtr& element) {
-    if (IsFacade(*element) && FacadeOf(*element).name == name) found = element;
-  });
-  return found;
-}
-
 CommandError BadDot(const geom::Error& error, const model::Facade& facade, const Vec2& dot_px) {
   const std::string name = Printable(facade.name);
   const bool is_edge_on = error.detail == "the camera stands in its plane";
@@ -72,17 +57,17 @@ CommandError BadDot(const geom::Error& error, const model::Facade& facade, const
 
 tl::expected<ElementPtr, CommandError> FacadeNamed(const State& state, std::string_view name,
                                                    Where where) {
-  if (ElementPtr found = FindFacade(state, name)) return found;
-  std::string known;
-  state.model.ForEach([&](const ElementPtr& element) {
-    if (!IsFacade(*element)) return;
-    known += (known.empty() ? "`" : ", `") + Printable(FacadeOf(*element).name) + "`";
-  });
+  if (ElementPtr found = model::FindFacade(state.model, name)) return found;
+  const std::vector<std::string> known = model::FacadeNames(state.model);
+  const auto meant = DidYouMean(std::string(name), known);
+  std::string list;
+  for (const std::string& facade : known) list += (list.empty() ? "`" : ", `") + facade + "`";
   return Fail({.code = Code::kNoFacade,
-               .message = fmt::format("no facade is called `{}`", Printable(std::string(name))),
-               .label = known.empty() ? "there is no facade yet" : "there are " + known,
-               .help = "`trace rectangle … facade=NAME` declares one that `calibrate` finds; "
-                       "`construct facade` and `recover facade` make one",
+               .message = fmt::format("no facade is called `{}`", Printable(name)),
+               .label = known.empty() ? "there is no facade yet" : "known are " + Printable(list),
+               .help = meant ? "did you mean `" + *meant + "`?"
+                             : "`trace rectangle … facade=NAME` declares one that `calibrate` "
+                               "finds; `construct facade` and `recover facade` make one",
                .where = where});
 }
 
@@ -105,8 +90,8 @@ std::vector<model::Moved> MovedFacade(const std::string& name, const camera::Fac
                               turned * plane.y};
       return FacadeGeometry(name, frame, solved);
     };
-    moved.push_back({static_cast<model::SourceId>(j), kMovedBy, beside(kMovedBy),
-                     beside(-kMovedBy)});
+    moved.push_back({static_cast<model::SourceId>(j), model::kMovedBy, beside(model::kMovedBy),
+                     beside(-model::kMovedBy)});
   }
   return moved;
 }
@@ -141,6 +126,7 @@ tl::expected<PlacedPoint, CommandError> DrawDot(const State& state, const Vec2& 
   }
   const model::Photograph& photograph = PhotographOf(**meant);
   const camera::Estimate& estimate = *photograph.estimate;
+  if (auto error = OutsidePhotograph(photograph.frame, dot_px, Code::kBadDot)) return Fail(*error);
   const auto drawn =
       camera::DrawOnto(estimate.camera, photograph.frame, FacadeOf(*facade).plane, dot_px);
   if (!drawn) return Fail(BadDot(drawn.error(), FacadeOf(*facade), dot_px));

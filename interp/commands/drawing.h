@@ -10,6 +10,8 @@
 #include "camera/drawing.h"
 #include "camera/estimate.h"
 #include "interp/command.h"
+#include "model/covariance.h"
+#include "model/facades.h"
 
 namespace tranos::interp {
 
@@ -21,18 +23,11 @@ struct PlacedPoint {
   PointTerms terms = {};
 };
 
-// How far a source is moved to either side, in its deviations: little enough for what is curved,
-// enough for the rounding of coordinates.
-inline constexpr double kMovedBy = 0.01;
-
 // The source of a dot's u; that of its v is the next one. Nothing where deviations are not kept.
 using DotSource = std::function<std::optional<model::SourceId>(
     model::ElementId photograph, const geom::Vec2& dot_px, double noise_px)>;
 
-const model::Facade& FacadeOf(const model::Element& element);
-// The facade that commands know by this name, as the state has it; null if there is none.
-model::ElementPtr FindFacade(const model::State& state, std::string_view name);
-// The same; E0908 with those there are.
+// The facade that commands know by this name, as the state has it; E0908 with those there are.
 tl::expected<model::ElementPtr, CommandError> FacadeNamed(const model::State& state,
                                                           std::string_view name, Where where = {});
 
@@ -54,8 +49,8 @@ CommandError BadDot(const geom::Error& error, const model::Facade& facade,
 double NoiseOf(const model::State& state, model::ElementId photograph);
 
 // The point of the active facade that a dot of the active photograph is of. E0901, E0902 and E0908
-// where one of them is missing, E0909 where the dot is of no point of the facade, or of one that is
-// uncertain by more than a tenth of its distance.
+// where one of them is missing, E0909 where the dot is outside the photograph, of no point of the
+// facade, or of one that is uncertain by more than a tenth of its distance.
 tl::expected<PlacedPoint, CommandError> DrawDot(const model::State& state, const geom::Vec2& dot_px,
                                                 const DotSource& source_of);
 

@@ -15,6 +15,7 @@ using geom::Frame;
 using geom::Vec2;
 using geom::Vec3;
 using model::ElementPtr;
+using model::FacadeOf;
 using model::State;
 
 namespace {
@@ -32,7 +33,7 @@ tl::expected<std::string, CommandError> NewName(const State& state, const Answer
                  .help = "recover facade east perpendicular=front dot=…"});
   }
   const std::string& name = answers.words[0];
-  if (!FindFacade(state, name)) return name;
+  if (!model::FindFacade(state.model, name)) return name;
   return Fail({.code = Code::kBoundTwice,
                .message = fmt::format("there is a facade `{}` already", Printable(name)),
                .help = "`set facade` takes it; another one has another name"});
