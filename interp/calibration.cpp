@@ -257,8 +257,8 @@ Fired Machine::Calibrated(Solution solution, const model::State& before, Span sp
   for (std::size_t i = 0; i < std::min(facades.size(), traced.facades.size()); ++i) {
     if (!facades[i].determined) continue;
     fired.edit.added.push_back(model::WithMoved(
-        *NewElement(run.state(), FacadeGeometry(traced.facades[i], facades[i].plane,
-                                                static_cast<int>(i))),
+        *NewElement(run.state(),
+                    FacadeGeometry(traced.facades[i], facades[i].plane, static_cast<int>(i))),
         MovedFacade(traced.facades[i], facades[i], static_cast<int>(i))));
   }
   for (std::size_t p = 0; p < found.size(); ++p) {

@@ -42,8 +42,8 @@ class Beside {
         const ElementPtr current = before.model.Current(given->id);
         Note(current ? current : given);
       });
-      const bool names_facade = std::find(std::begin(kFacadeKeys), std::end(kFacadeKeys), key) !=
-                                std::end(kFacadeKeys);
+      const bool names_facade =
+          std::find(std::begin(kFacadeKeys), std::end(kFacadeKeys), key) != std::end(kFacadeKeys);
       if (!names_facade || !value.is_string()) continue;
       if (const ElementPtr facade = model::FindFacade(before.model, value.string())) Note(facade);
     }

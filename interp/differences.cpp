@@ -47,8 +47,8 @@ Value WithSides(const Value& base, std::span<const Side> sides) {
   std::vector<Moved> moved;
   for (const Side& side : sides) {
     if (!side.forward.is_element() || !side.back.is_element()) continue;
-    moved.push_back({side.source, side.step, side.forward.element()->geometry,
-                     side.back.element()->geometry});
+    moved.push_back(
+        {side.source, side.step, side.forward.element()->geometry, side.back.element()->geometry});
   }
   return Value::OfElement(model::WithMoved(part, std::move(moved)));
 }

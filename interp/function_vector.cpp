@@ -168,7 +168,8 @@ constexpr Builtin kVector[] = {
     {"length(v)", "the length of a vector or of an element", 1, 1, Length},
     {"normalize(v)", "the direction of a vector, as plain numbers", 1, 1, Normalize},
     {"angle(a, b)",
-     "the angle between two directions or lines, from 0 to 180deg; with a plane or facade, to 90deg",
+     "the angle between two directions or lines, from 0 to 180deg; with a plane or facade, to "
+     "90deg",
      2, 2, Angle},
     {"distance(a, b)", "between the nearest points of two points or elements; a facade is a plane",
      2, 2, Distance},

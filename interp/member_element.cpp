@@ -332,7 +332,8 @@ std::optional<Value> OwnMember(const CallContext& context, const ElementPtr& nam
 }
 
 std::vector<std::string> OwnMembers(const Element& element) {
-  if (std::holds_alternative<model::Point>(element.geometry)) return {"position", "x", "y", "z", "covariance"};
+  if (std::holds_alternative<model::Point>(element.geometry))
+    return {"position", "x", "y", "z", "covariance"};
   if (const geom::Curve* curve = CurveOf(element)) return CurveMembers(*curve);
   if (SurfaceOf(element)) return {"point(u, v)", "normal(u, v)"};
   if (SolidOf(element)) return {std::begin(kSolidMembers), std::end(kSolidMembers)};

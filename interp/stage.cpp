@@ -259,8 +259,7 @@ Vec3 PlaceOf(PointKey kind, const Value& values, const model::Drawing& drawing, 
 // The point of the active facade that a dot is of.
 PlacedPoint Stage::DrawnThrough(const Value& values, Span span) const {
   std::size_t given = 0;
-  const auto placed =
-      DrawDot(state_, Coordinates(values, &given).head<2>(), links_.dot_source);
+  const auto placed = DrawDot(state_, Coordinates(values, &given).head<2>(), links_.dot_source);
   if (placed) return *placed;
   Diagnostic diagnostic = MakeDiagnostic(placed.error());
   diagnostic.span = span;

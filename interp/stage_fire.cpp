@@ -188,15 +188,16 @@ void Stage::NotePlaced(const Answers& answers, const model::Edit& edit) const {
 
 // What is made from what was drawn through a photograph hangs on the same sources.
 void Stage::Carry(const Answers& answers, model::Edit* edit, Span span) const {
-  const auto times = CarryDeviations(*active_.row, state_, answers, active_.point_terms,
-                                     *links_.sources, edit);
+  const auto times =
+      CarryDeviations(*active_.row, state_, answers, active_.point_terms, *links_.sources, edit);
   if (times) return links_.budget->ChargeSteps(static_cast<std::uint64_t>(*times), span);
   links_.diagnostics->Add(
       {Code::kNoDeviation, active_.span,
        "`" + std::string(active_.row->words) +
            "` cannot be carried out within the noise of what it is made from, so that what it "
            "makes has no deviations",
-       "", "where ends should meet, let them go on from one another, or draw both by the same dot"});
+       "",
+       "where ends should meet, let them go on from one another, or draw both by the same dot"});
 }
 
 // What `calibrate` would have gone by, and stands after it; traces of stated cameras are for
@@ -306,7 +307,9 @@ void Stage::FirePlacement(Span span) {
   placement.world_from_element.rotate(Eigen::AngleAxisd(settings.angle_rad, Vec3::UnitZ()));
   placement.world_from_element.scale(settings.scale);
   model::Edit edit;
-  edit.added.push_back(Drawn(*links_.place(placement, state_)));
+  ElementPtr placed = links_.place(placement, state_);
+  if (!active_.point_terms[0].empty()) placed = Drawn(*placed);
+  edit.added.push_back(std::move(placed));
   CheckNear(*edit.added.back(), span);
   links_.budget->ChargeElements(1, span);
   TakeIds();

@@ -26,7 +26,8 @@ ElementPtr FindFacade(const Model& model, std::string_view name) {
 
 std::vector<std::string> FacadeNames(const Model& model) {
   std::vector<std::string> names;
-  ForEachFacade(model, [&](const ElementPtr& element) { names.push_back(FacadeOf(*element).name); });
+  ForEachFacade(model,
+                [&](const ElementPtr& element) { names.push_back(FacadeOf(*element).name); });
   return names;
 }
 

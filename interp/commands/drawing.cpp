@@ -37,8 +37,7 @@ void AddFacadeTerms(const model::Element& facade, const camera::DrawnPoint& draw
     const geom::Frame& a = std::get<model::FacadePtr>(forward)->plane;
     const geom::Frame& b = std::get<model::FacadePtr>(back)->plane;
     const double offset = normal.dot(a.origin - b.origin) - (a.z() - b.z()).dot(from_origin);
-    terms->try_emplace(source, Vec3::Zero()).first->second +=
-        offset / (2 * step) * drawn.by_offset;
+    terms->try_emplace(source, Vec3::Zero()).first->second += offset / (2 * step) * drawn.by_offset;
   }
 }
 
@@ -133,8 +132,7 @@ tl::expected<PlacedPoint, CommandError> DrawDot(const State& state, const Vec2& 
   const double noise_px = NoiseOf(state, (*meant)->id);
   std::map<model::SourceId, Vec3> terms;
   for (Eigen::Index j = 0; j < estimate.deviations.cols(); ++j) {
-    const Vec3 term =
-        drawn->by_camera * estimate.deviations.block<camera::kParameters, 1>(0, j);
+    const Vec3 term = drawn->by_camera * estimate.deviations.block<camera::kParameters, 1>(0, j);
     if (!term.isZero(0)) terms[static_cast<model::SourceId>(j)] = term;
   }
   AddFacadeTerms(*facade, *drawn, &terms);

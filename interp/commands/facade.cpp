@@ -41,9 +41,8 @@ tl::expected<std::string, CommandError> NewName(const State& state, const Answer
 
 CommandResult SetFacade(const State& state, const Answers& answers) {
   if (answers.words.empty()) {
-    return Fail({.code = Code::kMissingValue,
-                 .message = "which facade?",
-                 .help = "set facade front"});
+    return Fail(
+        {.code = Code::kMissingValue, .message = "which facade?", .help = "set facade front"});
   }
   const auto facade = FacadeNamed(state, answers.words[0]);
   if (!facade) return Fail(facade.error());
@@ -88,8 +87,8 @@ tl::expected<std::vector<Vec3>, CommandError> DotsOn(const model::Photograph& ph
   std::vector<Vec3> points;
   for (std::size_t i = 0; i < answers.points.size(); ++i) {
     const Vec2 dot_px = answers.points[i].head<2>();
-    const auto drawn = camera::DrawOnto(photograph.estimate->camera, photograph.frame,
-                                        facade.plane, dot_px);
+    const auto drawn =
+        camera::DrawOnto(photograph.estimate->camera, photograph.frame, facade.plane, dot_px);
     if (!drawn) {
       CommandError error = BadDot(drawn.error(), facade, dot_px);
       error.where = AtPoint(static_cast<int>(i));
@@ -210,9 +209,9 @@ constexpr Key kRecoverKeys[] = {
 constexpr Prompt kPoints[] = {{"point"}};
 constexpr Prompt kDots[] = {{"dot"}};
 
-#define TRANOS_FRONT                                                               \
+#define TRANOS_FRONT                                                                       \
   "place camera f=35mm format=36mm,24mm size=1600,1067 phi=-30deg xy=-20,-30,2 as paper\n" \
-  "set camera paper\n"                                                                  \
+  "set camera paper\n"                                                                     \
   "construct facade front xy=0,0 xy=10,0\n"
 constexpr Example kSetExamples[] = {
     {TRANOS_FRONT "set facade front; place point dot=800,500 as p", "p.y within 0m +- 1e-9m"},

@@ -93,8 +93,8 @@ std::optional<CommandError> OutsidePhotograph(const camera::Frame& frame, const 
   return CommandError{
       .code = code,
       .message = fmt::format("the dot {:g},{:g} is outside the photograph", dot_px.x(), dot_px.y()),
-      .label = fmt::format("the photograph is {} by {} pixels", frame.size_px.x(),
-                           frame.size_px.y())};
+      .label =
+          fmt::format("the photograph is {} by {} pixels", frame.size_px.x(), frame.size_px.y())};
 }
 
 CommandError NoCameraYet(const model::Element& photograph) {

@@ -23,8 +23,7 @@ TEST(Drawing, GoesBackToThePointThatWasSeen) {
   for (const geom::Frame& plane : {kFront, kRoof}) {
     for (const Vec2& p : {Vec2(0, 0), Vec2(7, 4), Vec2(-3, 1.5)}) {
       const Vec3 point_m = plane.ToWorld({p.x(), p.y(), 0});
-      const auto drawn =
-          DrawOnto(Skewed(), frame, plane, scenes::DotOf(Skewed(), frame, point_m));
+      const auto drawn = DrawOnto(Skewed(), frame, plane, scenes::DotOf(Skewed(), frame, point_m));
       ASSERT_TRUE(drawn);
       EXPECT_LT((drawn->point_m - point_m).norm(), 1e-9);
     }
@@ -46,8 +45,7 @@ TEST(Drawing, DerivativesAreThoseOfDifferences) {
   ASSERT_TRUE(drawn);
   for (int i = 0; i < kParameters; ++i) {
     const ParameterVector by = kStep * ParameterVector::Unit(i);
-    const Vec3 slope =
-        (Aside(by, Vec2::Zero(), 0) - Aside(-by, Vec2::Zero(), 0)) / (2 * kStep);
+    const Vec3 slope = (Aside(by, Vec2::Zero(), 0) - Aside(-by, Vec2::Zero(), 0)) / (2 * kStep);
     EXPECT_LT((drawn->by_camera.col(i) - slope).norm(), kNear * (1 + slope.norm()))
         << kParameterNames[i];
   }

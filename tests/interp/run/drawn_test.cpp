@@ -30,9 +30,8 @@ class House {
       text_ += fmt::format("trace edge from={} to={} {} {}\n", Point(corners[from]),
                            Point(corners[to]), Dot(corners[from]), Dot(corners[to]));
     }
-    for (const auto& [name, origin, right] :
-         {std::tuple{"front", Vec3(1, 0, 1), Vec3(1, 0, 0)},
-          std::tuple{"east", Vec3(10, 2, 1), Vec3(0, 1, 0)}}) {
+    for (const auto& [name, origin, right] : {std::tuple{"front", Vec3(1, 0, 1), Vec3(1, 0, 0)},
+                                              std::tuple{"east", Vec3(10, 2, 1), Vec3(0, 1, 0)}}) {
       text_ += fmt::format("trace rectangle a=2 b=3 facade={} {} {} {} {}\n", name, Dot(origin),
                            Dot(origin + 2 * right), Dot(origin + 2 * right + Vec3(0, 0, 3)),
                            Dot(origin + Vec3(0, 0, 3)));
@@ -65,9 +64,7 @@ class House {
   }
 
  private:
-  static std::string Point(const Vec3& p) {
-    return fmt::format("[{},{},{}]", p.x(), p.y(), p.z());
-  }
+  static std::string Point(const Vec3& p) { return fmt::format("[{},{},{}]", p.x(), p.y(), p.z()); }
   camera::Camera truth_;
   Noise noise_;
   std::string text_;
@@ -79,9 +76,13 @@ TEST(Drawn, LiesWithinItsDeviations) {
 #else
   constexpr int kSeeds = 400;
 #endif
-  const std::map<std::string, double> truth = {
-      {"width", 5},  {"right", 8},           {"depth", 0}, {"area", 6},
-      {"radius", 1}, {"turn", camera::kPi / 2}, {"across", std::sqrt(20.0)}};
+  const std::map<std::string, double> truth = {{"width", 5},
+                                               {"right", 8},
+                                               {"depth", 0},
+                                               {"area", 6},
+                                               {"radius", 1},
+                                               {"turn", camera::kPi / 2},
+                                               {"across", std::sqrt(20.0)}};
   std::map<std::string, double> covered, squares;
   for (int seed = 1; seed <= kSeeds; ++seed) {
     House house(static_cast<std::uint64_t>(seed));
