@@ -4,6 +4,7 @@
 #pragma once
 
 #include "camera/camera.h"
+#include "camera/image_line.h"
 
 namespace tranos::camera {
 
@@ -25,5 +26,24 @@ inline constexpr double kMostUncertain = 0.1;
 // plane's horizon.
 geom::Result<DrawnPoint> DrawOnto(const Camera&, const Frame&, const geom::Frame& plane,
                                   const Vec2& dot_px);
+
+// The unit vector in the world towards what is seen at the dot.
+Vec3 RayOf(const Camera&, const Frame&, const Vec2& dot_px);
+
+// The direction in the world of a horizontal edge that is seen along the line, from its a to its b
+// as they are seen. Error kDegenerate: the edge is at the camera's height, where all are seen
+// alike.
+geom::Result<Vec3> LevelDirection(const Camera&, const Frame&, const ImageLine&);
+
+// Where an edge of this direction and length, seen from the line's a to its b, begins (Lemma 9: the
+// length gives λ). Error kDegenerate: it is seen end-on.
+geom::Result<Vec3> BeginningOf(const Camera&, const Frame&, const ImageLine&, const Vec3& along,
+                               double length_m);
+
+// How far an edge that begins at a point and runs along a unit vector goes until it is seen at the
+// dot; negative against that way. Where it passes the ray by, the nearest point is meant. Errors:
+// kDegenerate: it is seen end-on; kOutOfRange: that is behind the camera.
+geom::Result<double> LengthAlong(const Camera&, const Frame&, const Vec3& from_m, const Vec3& along,
+                                 const Vec2& dot_px);
 
 }  // namespace tranos::camera

@@ -27,6 +27,21 @@ void ForEachElement(const Value& value, const F& f) {
   for (const Value& item : value.list()) ForEachElement(item, f);
 }
 
+// Whether it is a number, a point (one deep) or points that hang on sources.
+bool IsUncertain(const Value& value, int deep = 2) {
+  if (!value.is_list()) return value.derivatives() != nullptr;
+  return deep > 0 && std::any_of(value.list().begin(), value.list().end(),
+                                 [&](const Value& item) { return IsUncertain(item, deep - 1); });
+}
+
+void AddSources(const Value& value, std::set<SourceId>* sources) {
+  if (value.is_list()) {
+    for (const Value& item : value.list()) AddSources(item, sources);
+  } else if (const model::Derivatives* derivatives = value.derivatives()) {
+    for (const auto& [source, slope] : derivatives->terms) sources->insert(source);
+  }
+}
+
 // What a firing goes by, with one of its sources to one side.
 class Beside {
  public:
@@ -38,6 +53,7 @@ class Beside {
     }
     for (const ElementPtr& element : answers.chosen) Note(element);
     for (const auto& [key, value] : answers.keys) {
+      if (IsUncertain(value)) AddSources(value, &sources_);
       ForEachElement(value, [&](const ElementPtr& given) {
         const ElementPtr current = before.model.Current(given->id);
         Note(current ? current : given);
@@ -116,7 +132,12 @@ class Beside {
 
   static Value Moved(const Value& value, SourceId source, double step) {
     if (value.is_element()) return Value::OfElement(Moved(value.element(), source, step));
-    if (!value.holds_elements()) return value;
+    if (const model::Derivatives* derivatives = value.derivatives()) {
+      double number = value.number();
+      for (const auto& [of, slope] : derivatives->terms) number += of == source ? step * slope : 0;
+      return Value::Number(number, value.dimension());
+    }
+    if (!value.holds_elements() && !IsUncertain(value)) return value;
     std::vector<Value> items;
     for (const Value& item : value.list()) items.push_back(Moved(item, source, step));
     return Value::List(std::move(items));

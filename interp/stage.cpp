@@ -270,8 +270,7 @@ PlacedPoint Stage::DrawnThrough(const Value& values, Span span) const {
 PointTerms Stage::TermsOf(PointKey kind, const Value& values) const {
   switch (kind) {
     case PointKey::kXy:
-      // Before `calibrate` a number's sources are what is solved for, and no deviations yet.
-      return links_.trail ? PointTerms{} : TermsOfPoint(values);
+      return IsUnsolved() ? PointTerms{} : TermsOfPoint(values);
     case PointKey::kDl:
     case PointKey::kDi:
     case PointKey::kDx:

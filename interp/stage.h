@@ -175,6 +175,8 @@ class Stage {
   void AnswerPrompt(const PlacedPoint& placed, Span span);
   PlacedPoint DrawnThrough(const model::Value& values, Span span) const;
   PointTerms TermsOf(PointKey kind, const model::Value& values) const;
+  // Whether numbers' sources are still what `calibrate` solves for, and no deviations yet.
+  bool IsUnsolved() const { return links_.trail && !calibrated_; }
   void PickOrAccept(const geom::Vec3& point, Span span);
   bool PromptsAnswered() const;
   bool TransformIsAnswered() const;

@@ -188,6 +188,7 @@ void Stage::NotePlaced(const Answers& answers, const model::Edit& edit) const {
 
 // What is made from what was drawn through a photograph hangs on the same sources.
 void Stage::Carry(const Answers& answers, model::Edit* edit, Span span) const {
+  if (IsUnsolved()) return;
   const auto times =
       CarryDeviations(*active_.row, state_, answers, active_.point_terms, *links_.sources, edit);
   if (times) return links_.budget->ChargeSteps(static_cast<std::uint64_t>(*times), span);
