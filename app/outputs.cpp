@@ -2,9 +2,11 @@
 #include "app/outputs.h"
 
 #include <algorithm>
+#include <map>
 #include <new>
 #include <thread>
 
+#include "output/camera_files.h"
 #include "output/write.h"
 
 namespace tranos::app {
@@ -20,7 +22,7 @@ constexpr Span kNoPlace{UINT32_MAX, 0, 0};
 
 struct Request {
   model::OutputRequest what;
-  std::string path;  // below the output folder
+  std::string path;  // below the output folder; of several files the first's, or their folder
   Span span;
   std::string label = {};
 };
@@ -50,31 +52,56 @@ std::vector<Request> RequestsOf(const interp::ScriptResult& result, const std::s
   for (std::size_t i = 0; i < outcome.outputs.size(); ++i) {
     const model::OutputRequest& what = outcome.outputs[i];
     const auto* render = std::get_if<model::RenderRequest>(&what);
-    std::string path = render ? render->file : std::get<model::ExportRequest>(what).file;
+    std::string path = std::visit([](const auto& request) { return request.file; }, what);
     if (render && path.empty()) path = stem + "-" + std::to_string(++picture) + ".png";
     add(what, std::move(path), outcome.output_spans[i]);
   }
   return all;
 }
 
-tl::expected<std::string, Diagnostic> BytesOf(const Request& request, int threads) {
-  const auto refused = [&](Code code, std::string why, std::string help) {
-    return tl::unexpected(Diagnostic{code, request.span,
-                                     "`" + request.path + "` cannot be made: " + std::move(why),
-                                     request.label, std::move(help)});
-  };
-  try {
-    const auto* exported = std::get_if<model::ExportRequest>(&request.what);
-    auto bytes = exported
-                     ? output::ExportOf(exported->model, exported->file)
-                     : output::PictureFileOf(std::get<model::RenderRequest>(request.what), threads);
-    if (bytes) return std::move(*bytes);
-    return refused(Code::kTooManyFacets, bytes.error().message,
-                   "a larger `tol` or a smaller `fn` gives fewer facets");
-  } catch (const std::bad_alloc&) {
-    return refused(Code::kMemoryLimit, "it takes more memory than the limit",
-                   "--limit memory=N raises it");
+using Files = std::vector<output::NamedFile>;
+
+output::Result<Files> FilesOf(const Request& request, int threads) {
+  if (const auto* camera = std::get_if<model::CameraRequest>(&request.what)) {
+    return output::CameraFilesOf(*camera);
   }
+  const auto* exported = std::get_if<model::ExportRequest>(&request.what);
+  auto bytes = exported
+                   ? output::ExportOf(exported->model, exported->file)
+                   : output::PictureFileOf(std::get<model::RenderRequest>(request.what), threads);
+  if (!bytes) return tl::unexpected(bytes.error());
+  return Files{{request.path, std::move(*bytes)}};
+}
+
+Diagnostic Refused(const Request& request, Code code, const std::string& why, std::string help) {
+  return {code, request.span, "`" + request.path + "` cannot be made: " + why, request.label,
+          std::move(help)};
+}
+
+tl::expected<Files, Diagnostic> MadeBy(const Request& request, int threads) {
+  try {
+    auto files = FilesOf(request, threads);
+    if (files) return std::move(*files);
+    const bool is_camera = std::holds_alternative<model::CameraRequest>(request.what);
+    return tl::unexpected(Refused(
+        request, is_camera ? Code::kOutOfRange : Code::kTooManyFacets, files.error().message,
+        is_camera ? "export exact \"camera.json\" keeps it as it is"
+                  : "a larger `tol` or a smaller `fn` gives fewer facets"));
+  } catch (const std::bad_alloc&) {
+    return tl::unexpected(Refused(request, Code::kMemoryLimit,
+                                  "it takes more memory than the limit",
+                                  "--limit memory=N raises it"));
+  }
+}
+
+// All that it writes, before any of it is made.
+tl::expected<std::vector<std::string>, Diagnostic> PathsOf(const Request& request) {
+  const auto* camera = std::get_if<model::CameraRequest>(&request.what);
+  if (!camera) return std::vector{request.path};
+  auto paths = output::CameraPathsOf(*camera);
+  if (paths) return std::move(*paths);
+  return tl::unexpected(Refused(request, Code::kOutOfRange, paths.error().message,
+                                "export exact \"camera.json\" keeps it as it is"));
 }
 
 Diagnostic FromHost(const interp::HostError& error, const std::string& path, Span span,
@@ -104,21 +131,36 @@ Written WriteOutputs(const ScriptRun& run, const RunVerbOptions& options, Progre
   if (!writer) return Failed(FromHost(writer.error(), options.output, kNoPlace));
   // Refusals come before long work.
   for (const Request& request : requests) {
-    if (const auto free = writer->Check(request.path); !free) {
-      return Failed(FromHost(free.error(), request.path, request.span, request.label));
+    const auto paths = PathsOf(request);
+    if (!paths) return Failed(paths.error());
+    for (const std::string& path : *paths) {
+      if (const auto free = writer->Check(path); !free) {
+        return Failed(FromHost(free.error(), path, request.span, request.label));
+      }
     }
   }
   Written written;
+  std::map<std::string, model::Hash128> contents;  // two cameras may share a picture
   for (std::size_t i = 0; i < requests.size(); ++i) {
     const Request& request = requests[i];
     progress->Tell("writing " + interp::Printable(request.path) + ", " + std::to_string(i + 1) +
                    " of " + std::to_string(requests.size()));
-    const auto bytes = BytesOf(request, threads);
-    if (!bytes) return Failed(bytes.error());
-    if (const auto put = writer->Write(request.path, *bytes); !put) {
-      return Failed(FromHost(put.error(), request.path, request.span, request.label));
+    const auto files = MadeBy(request, threads);
+    if (!files) return Failed(files.error());
+    for (const auto& [path, bytes] : *files) {
+      const model::Hash128 content = model::Hasher().Text(bytes).Finish();
+      const auto [known, is_new] = contents.emplace(path, content);
+      if (!is_new && known->second == content) continue;
+      if (!is_new) {
+        return Failed({Code::kProtectedFile, request.span,
+                       "`" + path + "` would be written twice, and differently", request.label,
+                       "give one of the exports another name"});
+      }
+      if (const auto put = writer->Write(path, bytes); !put) {
+        return Failed(FromHost(put.error(), path, request.span, request.label));
+      }
+      written.files.push_back({options.output + "/" + path, bytes.size()});
     }
-    written.files.push_back({options.output + "/" + request.path, bytes->size()});
   }
   if (const auto placed = writer->PutInPlace(); !placed) {
     return Failed(FromHost(placed.error(), options.output, kNoPlace));

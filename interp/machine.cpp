@@ -117,7 +117,11 @@ Outcome Machine::Run() {
 void Machine::EvaluateSolids(const model::Model& last) const {
   const auto force = [&](const model::ElementPtr& element) { solids_.Force(*element, {}); };
   for (const model::OutputRequest& output : outcome_.outputs) {
-    std::visit([&](const auto& request) { request.model.ForEach(force); }, output);
+    if (const auto* render = std::get_if<model::RenderRequest>(&output)) {
+      render->model.ForEach(force);
+    } else if (const auto* exported = std::get_if<model::ExportRequest>(&output)) {
+      exported->model.ForEach(force);
+    }
   }
   last.ForEach(force);
 }

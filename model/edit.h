@@ -21,7 +21,22 @@ struct ExportRequest {
   Model model;
   std::string file;  // its extension chooses the format
 };
-using OutputRequest = std::variant<RenderRequest, ExportRequest>;
+// How other programs keep a camera.
+enum class CameraFormat : std::uint8_t {
+  kFspyProject,
+  kFspyJson,
+  kOpenCv,
+  kColmap,
+  kBlender,
+  kExact
+};
+struct CameraRequest {
+  ElementPtr photograph;     // with a camera that is determined
+  camera::PhotoPtr picture;  // what is seen on it; null for a stated camera
+  CameraFormat format;
+  std::string file;  // of COLMAP a folder
+};
+using OutputRequest = std::variant<RenderRequest, ExportRequest, CameraRequest>;
 
 struct Edit {
   std::vector<ElementPtr> added;     // Apply gives them their ids, in order

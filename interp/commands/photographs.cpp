@@ -34,23 +34,28 @@ tl::expected<ElementPtr, CommandError> PhotographNamed(const model::State& state
 
 }  // namespace
 
-tl::expected<ElementPtr, CommandError> PhotographMeant(const model::State& state,
-                                                       const Answers& answers) {
-  if (const model::Value* given = answers.Find("photo")) {
+tl::expected<ElementPtr, CommandError> PhotographAt(const model::State& state,
+                                                    const Answers& answers, std::string_view key) {
+  if (const model::Value* given = answers.Find(key)) {
     const ElementPtr current = state.model.Current(given->element()->id);
     if (current && IsPhotograph(*current)) return current;
     return Fail({.code = Code::kWrongElement,
-                 .message = fmt::format("`photo=` is a photograph or camera, and this is {}",
+                 .message = fmt::format("`{}=` is a photograph or camera, and this is {}", key,
                                         NameForMessage(*given->element())),
-                 .where = {Where::kKey, 0, "photo"}});
-  }
-  for (const std::string& word : answers.words) {
-    if (word != "default") return PhotographNamed(state, word);
+                 .where = {Where::kKey, 0, key}});
   }
   if (ElementPtr active = state.model.Current(state.drawing.photograph)) return active;
   return Fail({.code = Code::kNoPhotograph,
                .message = "there is no photograph yet",
                .help = "attach photo \"fire_1917.png\" format=40.5mm,26.7mm as fire"});
+}
+
+tl::expected<ElementPtr, CommandError> PhotographMeant(const model::State& state,
+                                                       const Answers& answers) {
+  for (const std::string& word : answers.words) {
+    if (word != "default" && !answers.Has("photo")) return PhotographNamed(state, word);
+  }
+  return PhotographAt(state, answers, "photo");
 }
 
 const model::Photograph& PhotographOf(const model::Element& element) {
