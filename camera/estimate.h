@@ -37,6 +37,16 @@ struct UnknownEstimate {
   bool at_bound = false;
 };
 
+// A facade that traces declared: an upright plane, its x to the right and its y upward as seen from
+// outside, from the first dot of its first rectangle, or else from the foot of the world's origin.
+struct FacadeEstimate {
+  geom::Frame plane;
+  // Of how far it is moved along its normal at its origin (m) and turned about its x and its y
+  // (rad), by the columns of Estimate::deviations.
+  Eigen::MatrixXd deviations;
+  bool determined = true;
+};
+
 // What is at fault where traces, dimensions and assumptions do not agree.
 struct Disagreement {
   std::string text;  // what disagrees, χ², what is farthest off, and what could as well be
@@ -88,7 +98,8 @@ struct Estimate {
   // Half the width of a 95 % interval in deviations: the normal distribution's, or Student's t.
   double quantile95 = 1.959963984540054;
   std::vector<UnknownEstimate> unknowns;
-  std::vector<Estimate> alternatives;  // other poses that explain the traces within their noise
+  std::vector<FacadeEstimate> facades;  // by the index that traces have
+  std::vector<Estimate> alternatives;   // other poses that explain the traces within their noise
   std::vector<TraceResidual> residuals;
   std::vector<std::string> undetermined;  // in words: what trades off, and what would determine it
   std::vector<std::string> warnings;      // near-degenerate vanishing points, tilt, pan

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "interp/camera_report.h"
+#include "interp/commands/drawing.h"
 #include "interp/commands/families.h"
 #include "interp/commands/firing.h"
 #include "interp/commands/photographs.h"
@@ -171,6 +172,17 @@ CommandResult RecoverCamera(const State& state, const Answers& answers) {
   chosen.alternatives = std::move(estimate.alternatives);
   estimate.alternatives.clear();
   chosen.alternatives[static_cast<std::size_t>(index)] = std::move(estimate);
+  state.model.ForEach([&](const model::ElementPtr& element) {
+    const auto* facade = std::get_if<model::FacadePtr>(&element->geometry);
+    if (!facade || (*facade)->solved < 0) return;
+    const auto& [name, plane, solved] = **facade;
+    const auto place = static_cast<std::size_t>(solved);
+    if (place >= chosen.facades.size()) return;
+    const camera::FacadeEstimate& now = chosen.facades[place];
+    fired.edit.replaced.push_back(
+        model::WithMoved(*model::WithGeometry(*element, FacadeGeometry(name, now.plane, solved)),
+                         MovedFacade(name, now, solved)));
+  });
   changed.estimate = std::make_shared<const camera::Estimate>(std::move(chosen));
   fired.edit.replaced.push_back(WithPhotograph(**found, std::move(changed)));
   return fired;

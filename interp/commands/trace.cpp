@@ -24,44 +24,14 @@ using Kind = Trace::Kind;
 
 Where AtDot(std::size_t index) { return {Where::kPoint, static_cast<int>(index), {}}; }
 
-// In parts of the picture's size. An edge may be traced a little beyond its border, as where a
-// print was cropped or a corner is where two traced edges would meet; what is farther off is a
-// slip.
-constexpr double kBeyondBorder = 0.25;
-
-// How far outside a dot is.
-Vec2 Beyond(const Vec2& dot, const Vec2& size_px) {
-  return (-dot).cwiseMax(dot - size_px).cwiseMax(0);
-}
-
-std::vector<CommandError> WarningsOfDots(const Answers& answers, const camera::Frame& frame) {
-  for (std::size_t i = 0; i < answers.points.size(); ++i) {
-    const Vec2 dot = answers.points[i].head<2>();
-    if (Beyond(dot, frame.size_px.cast<double>()).isZero()) continue;
-    return {{.code = Code::kDotOutside,
-             .message = fmt::format("the dot {:g},{:g} is outside the photograph, where nothing of "
-                                    "it is seen",
-                                    dot.x(), dot.y()),
-             .label = fmt::format("the photograph is {} by {} pixels", frame.size_px.x(),
-                                  frame.size_px.y()),
-             .where = AtDot(i)}};
-  }
-  return {};
-}
-
 // `group` dots belong together, and are apart; those of two edges may meet in a corner.
 std::optional<CommandError> CheckDots(const Answers& answers, const camera::Frame& frame,
                                       std::size_t group) {
-  const Vec2 size_px = frame.size_px.cast<double>();
   for (std::size_t i = 0; i < answers.points.size(); ++i) {
     const Vec2 dot = answers.points[i].head<2>();
-    if ((Beyond(dot, size_px).array() > kBeyondBorder * size_px.array()).any()) {
-      return CommandError{
-          .code = Code::kBadTrace,
-          .message = fmt::format("the dot {:g},{:g} is outside the photograph", dot.x(), dot.y()),
-          .label = fmt::format("the photograph is {} by {} pixels", frame.size_px.x(),
-                               frame.size_px.y()),
-          .where = AtDot(i)};
+    if (auto error = OutsidePhotograph(frame, dot, Code::kBadTrace)) {
+      error->where = AtDot(i);
+      return error;
     }
     for (std::size_t j = i - i % group; j < i; ++j) {
       if ((answers.points[j].head<2>() - dot).norm() > 1e-6) continue;
@@ -71,6 +41,17 @@ std::optional<CommandError> CheckDots(const Answers& answers, const camera::Fram
     }
   }
   return std::nullopt;
+}
+
+// Of the first dot outside the photograph.
+std::vector<CommandError> WarningsOfDots(const Answers& answers, const camera::Frame& frame) {
+  for (std::size_t i = 0; i < answers.points.size(); ++i) {
+    auto warning = JustOutsidePhotograph(frame, answers.points[i].head<2>());
+    if (!warning) continue;
+    warning->where = AtDot(i);
+    return {*std::move(warning)};
+  }
+  return {};
 }
 
 CommandResult MakeTrace(const State& state, const Answers& answers, Trace trace, std::size_t dots) {
