@@ -339,7 +339,7 @@ constexpr Example kJoinedExamples[] = {
     {"place shape xy=0,0,0 xy=4,0,0 xy=4,0,3 xy=0,0,3 as front\n"
      "place shape xy=4,0,0.02 xy=4,5,0 xy=4,5,3 xy=4,0.03,3 as side\n"
      "construct joined of=[front, side] within=5cm",
-     "abs(side.area - 14.95m2) < 0.01m2"},
+     "abs(side.area - 14.975m2) < 0.001m2"},
     {"place shape xy=0,0,0 xy=4,0,0 xy=4,0,3 as front\n"
      "place shape xy=4,1,0 xy=4,5,0 xy=4,5,3 as side\n"
      "construct joined of=[front, side]",
