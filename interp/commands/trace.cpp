@@ -134,6 +134,14 @@ CommandResult TraceEdge(const State& state, const Answers& answers) {
   return MakeTrace(state, answers, std::move(trace), 0);
 }
 
+CommandResult TraceLine(const State& state, const Answers& answers) {
+  Trace trace{.kind = Kind::kDirection, .axis = -1};
+  const auto samples = SamplesOf(answers);
+  if (!samples) return Fail(samples.error());
+  trace.samples = *samples;
+  return MakeTrace(state, answers, std::move(trace), 0);
+}
+
 CommandResult TracePoint(const State& state, const Answers& answers) {
   Trace trace{.kind = Kind::kPoint};
   AddPoint(*answers.Find("at"), &trace.numbers);
@@ -229,6 +237,7 @@ constexpr Key kEdgeKeys[] = {
     {"samples", Type::kCount,
      "how many pixels the line was fitted to; `edge`: one for each pixel of its length", "edge"},
     kPhoto};
+constexpr Key kLineKeys[] = {kEdgeKeys[3], kPhoto};
 constexpr Key kPointKeys[] = {{"at", Type::kPoint, "where the point is", {}, {}, -1, true}, kPhoto};
 constexpr Key kRectangleKeys[] = {{"a", Type::kLength, "its width, along X", {}, {}, -1, true},
                                   {"b", Type::kLength, "its height, along Z", {}, {}, -1, true},
@@ -250,6 +259,10 @@ constexpr Example kEdgeExamples[] = {
     {TRANOS_PHOTO "place line xy=0,0,6 dl=10 as eaves; trace edge of=eaves dot=102,211 dot=340,188",
      "true"},
     {TRANOS_PHOTO "trace edge x dot=102,211", "E0402"}};
+constexpr Example kLineExamples[] = {
+    {TRANOS_PHOTO "trace line samples=edge photo=hall dot=102.5,211.0 dot=340.2,188.4 as sill",
+     "sill.type == \"trace line\""},
+    {TRANOS_PHOTO "trace line dot=102,211 dot=102,211", "E0903"}};
 constexpr Example kPointExamples[] = {
     {TRANOS_PHOTO "trace point at=[0,0,6m] photo=hall dot=211,290 as corner",
      "len(corner.dots) == 1"},
@@ -300,6 +313,15 @@ constexpr Command kCommands[] = {
              .options = "x|y|z",
              .examples = kEdgeExamples,
              .execute = TraceEdge}),
+    Tracing({.words = "trace line",
+             .family = "photograph",
+             .summary = "The image line of an edge of which nothing is known yet, for `detect "
+                        "vanishing points`; `calibrate` leaves it out.",
+             .least = 2,
+             .most = kMostDots,
+             .keys = kLineKeys,
+             .examples = kLineExamples,
+             .execute = TraceLine}),
     Tracing({.words = "trace point",
              .family = "photograph",
              .summary = "The image of a point whose place is known.",
