@@ -52,6 +52,7 @@ CommandResult DetectEdges(const State& state, const Answers& answers) {
     Trace trace{.kind = Kind::kDirection, .axis = camera::kNoAxis};
     trace.photograph = (*photograph)->id;
     trace.dots_px = {Rounded(line.a_px), Rounded(line.b_px)};
+    trace.facade = kMainFacade;
     trace.noise_px = state.drawing.settings->noise_px;
     trace.samples = camera::SamplesOf(line, Unit(trace));
     fired.edit.added.push_back(NewElement(state, std::make_shared<const Trace>(std::move(trace))));
@@ -197,7 +198,7 @@ constexpr Example kVanishingExamples[] = {
     {TRANOS_PHOTO "detect edges as found; detect vanishing points photo=house seed=2",
      "found[0].type == \"trace edge\""},
     {TRANOS_PHOTO "detect vanishing points", "E0907"},
-    {TRANOS_PHOTO "for i in 0..9 { trace line dot=10,{10+3*i} dot=300,{10+3*i} }\n"
+    {TRANOS_PHOTO "for i = 0 to 9 { trace line samples=edge dot=10,(10+30*i) dot=300,(10+30*i) }\n"
                   "detect vanishing points",
      "E0907"}};
 #undef TRANOS_PHOTO

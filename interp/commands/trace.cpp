@@ -53,7 +53,7 @@ CommandResult MakeTrace(const State& state, const Answers& answers, Trace trace,
   for (const geom::Vec3& dot : answers.points) trace.dots_px.emplace_back(dot.head<2>());
   trace.photograph = (*photograph)->id;
   trace.noise_px = state.drawing.settings->noise_px;
-  trace.facade = answers.Text("facade", "main");
+  trace.facade = answers.Text("facade", kMainFacade);
   return Make(state, std::make_shared<const Trace>(std::move(trace)));
 }
 
@@ -229,7 +229,7 @@ CommandResult TraceCircle(const State& state, const Answers& answers) {
 
 constexpr Key kPhoto = {"photo", Type::kElement,
                         "the photograph; the one last attached or set without"};
-constexpr Key kFacade = {"facade", Type::kName, "the facade that it lies on", {}, "main"};
+constexpr Key kFacade = {"facade", Type::kName, "the facade that it lies on", {}, kMainFacade};
 constexpr Key kEdgeKeys[] = {
     {"from", Type::kPoint, "where the edge begins"},
     {"to", Type::kPoint, "where it ends"},
