@@ -192,7 +192,7 @@ constexpr Key kVanishingKeys[] = {
 
 #define TRANOS_PHOTO "attach photo \"house.png\" as house\n"
 constexpr Example kEdgeExamples[] = {
-    {TRANOS_PHOTO "detect edges photo=house least=40 as found", "len(found) > 50"},
+    {TRANOS_PHOTO "detect edges photo=house least=40 as found", "len(found) > 9"},
     {"attach photo \"facade.png\"; detect edges", "E0907"}};
 constexpr Example kVanishingExamples[] = {
     {TRANOS_PHOTO "detect edges as found; detect vanishing points photo=house seed=2",

@@ -64,16 +64,18 @@ std::vector<Front> Fronts(const std::filesystem::path& data) {
   return fronts;
 }
 
-Mat3 FrontFromDot(const Found& found, std::span<const ImageLine> lines, std::span<const int> axis) {
+Mat3 FrontFromDot(const Known& photograph, const Found& found, std::span<const ImageLine> lines,
+                  std::span<const int> axis) {
   std::array<double, 3> length{};
   for (std::size_t i = 0; i < lines.size(); ++i) {
     if (axis[i] != kNoAxis) length[static_cast<std::size_t>(axis[i])] += lines[i].length_px();
   }
   const int along = length[0] >= length[1] ? 0 : 1;
-  Mat3 camera_from_front;
-  camera_from_front << found.camera_from_world.col(along), found.camera_from_world.col(2),
-      found.camera_from_world.col(1 - along);
-  return (found.dot_from_camera * camera_from_front).inverse();
+  const Mat3 dot_from_world = found.dot_from_camera * found.camera_from_world;
+  Mat3 dot_from_front;  // with the middle of the picture for its origin
+  dot_from_front << dot_from_world.col(along), dot_from_world.col(2),
+      photograph.frame.centre_px().homogeneous();
+  return dot_from_front.inverse();
 }
 
 double BoxFilled(const std::vector<Eigen::Vector2i>& window, const Mat3& front_from_dot) {
