@@ -134,7 +134,8 @@ void AddFronts(const std::vector<real::Front>& fronts, Report& report) {
     const Automatic lines = FoundOn(front.photograph);
     const real::Found found = Solved(front.photograph, lines, lines.axis);
     const Mat3 front_from_dot =
-        found.is_found ? real::FrontFromDot(found, lines.lines, lines.axis) : Mat3::Identity();
+        lines.axis.empty() ? Mat3::Identity()
+                           : real::FrontFromDot(front.photograph, found, lines.lines, lines.axis);
     std::vector<double> filled, unrectified;
     for (const auto& window : front.windows) {
       filled.push_back(real::BoxFilled(window, front_from_dot));

@@ -16,9 +16,10 @@ struct Front {
 // are left out.
 std::vector<Front> Fronts(const std::filesystem::path& data);
 
-// From homogeneous dots to the plane of the front: spanned by Z and that horizontal axis along
-// which more of the lines' length points.
-Mat3 FrontFromDot(const Found&, std::span<const ImageLine>, std::span<const int> axis);
+// From homogeneous dots to the plane of the front, up to a scale of each of its axes: Z, and that
+// horizontal one along which more of the lines' length points. A focal length is not needed for it.
+Mat3 FrontFromDot(const Known&, const Found&, std::span<const ImageLine>,
+                  std::span<const int> axis);
 
 // The share of its bounding box on the front that a window fills.
 double BoxFilled(const std::vector<Eigen::Vector2i>& window, const Mat3& front_from_dot);

@@ -140,8 +140,7 @@ TEST_F(RealPhotographs, OfStreetFrontsMakeBoxesOfTheirWindows) {
     const auto directions = FindVanishingDirections(*lines, front.photograph.frame);
     ASSERT_TRUE(directions) << front.photograph.name;
     const Found found = FoundCamera(TracedLines(front.photograph, *lines, directions->axis));
-    ASSERT_TRUE(found.is_found) << front.photograph.name;
-    const Mat3 front_from_dot = FrontFromDot(found, *lines, directions->axis);
+    const Mat3 front_from_dot = FrontFromDot(front.photograph, found, *lines, directions->axis);
     for (const auto& window : front.windows) filled += BoxFilled(window, front_from_dot);
     windows += front.windows.size();
   }
