@@ -23,8 +23,8 @@ std::vector<Command> Collect() {
         EditCommands(),      OffsetCommands(),         CutCommands(),          CornerCommands(),
         ConstructCommands(), ConstructSolidCommands(), SolidBooleanCommands(), SymmetryCommands(),
         PlaneCommands(),     ViewCommands(),           OutputCommands(),       PhotographCommands(),
-        PriorCommands(),     TraceCommands(),          CalibrateCommands(),    HistoryCommands(),
-        LaterCommands()}) {
+        FacadeCommands(),    PriorCommands(),          TraceCommands(),        CalibrateCommands(),
+        HistoryCommands(),   LaterCommands()}) {
     all.insert(all.end(), family.begin(), family.end());
   }
   std::stable_sort(all.begin(), all.end(), [](const Command& a, const Command& b) {
