@@ -23,7 +23,8 @@ std::vector<Command> Collect() {
         EditCommands(),      OffsetCommands(),         CutCommands(),          CornerCommands(),
         ConstructCommands(), ConstructSolidCommands(), SolidBooleanCommands(), SymmetryCommands(),
         PlaneCommands(),     ViewCommands(),           OutputCommands(),       PhotographCommands(),
-        FacadeCommands(),    PriorCommands(),          TraceCommands(),        CalibrateCommands(),
+        FacadeCommands(),    PriorCommands(),          TraceCommands(),        DetectCommands(),
+        CalibrateCommands(),
         HistoryCommands(),   LaterCommands()}) {
     all.insert(all.end(), family.begin(), family.end());
   }

@@ -23,7 +23,6 @@ constexpr Later kLater[] = {
     Row("construct section", "construct", "A drawing of the model cut by a plane."),
     Row("attach drawing", "photograph",
         "Brings in a drawing as a reference: DXF, or an image with a scale."),
-    Row("detect edges", "photograph", "Proposes the image lines of a photograph's edges."),
     Row("render photo", "photograph", "Makes a photograph of the model as a camera sees it."),
     Row("view camera", "view", "The view through a photograph's camera."),
     Row("plot", "output", "Draws a sheet at a scale."),
