@@ -326,6 +326,7 @@ Fired Machine::Calibrated(Solution solution, const model::State& before, Span sp
       photograph.unknown_dimensions.push_back(solvables_[source].dimension);
     }
     Warn(found[p], *element, traced.trace_ids[p], span);
+    photograph.camera_file.clear();
     photograph.estimate = std::make_shared<const camera::Estimate>(std::move(found[p]));
     std::erase_if(fired.edit.replaced,
                   [&](const ElementPtr& replaced) { return replaced->id == element->id; });

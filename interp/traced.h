@@ -32,7 +32,8 @@ struct Traced {
     return count;
   }
 };
-// Of the photograph with this id, or of all attached ones.
+// Of the photograph with this id, or of all attached ones, but those whose camera was read and on
+// which nothing is traced.
 Traced TracedIn(const model::State& state, model::ElementId only = model::kNoElement);
 
 // The numbers' values, without derivatives.
