@@ -8,7 +8,8 @@ import shutil
 import harness
 
 MEMBERS = ["status", "model_hash", "elements", "outputs", "asserts", "cameras", "diagnostics"]
-ELEMENT = ["id", "name", "type", "level", "evidence", "source", "parent", "bbox", "length", "area", "volume", "hash"]
+ELEMENT = ["id", "name", "type", "level", "evidence", "source", "parent", "bbox", "length", "area", "volume",
+           "covariance", "hash"]
 
 
 class Report(harness.ProgramTest):
