@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/camera_json.h"
 
-#include <functional>
 #include <nlohmann/json.hpp>
 
 #include "camera/parameter_table.h"
+#include "output/json_parts.h"
 
 namespace tranos::app {
 
@@ -14,30 +14,12 @@ using nlohmann::ordered_json;
 
 namespace {
 
-using PerParameter = std::function<ordered_json(Parameter)>;
-
-ordered_json Intrinsics(const PerParameter& of) {
-  return {{"f_mm", of(camera::kFocal)},
-          {"aspect", of(camera::kAspect)},
-          {"principal_mm", {of(camera::kPrincipalX), of(camera::kPrincipalY)}},
-          {"skew_deg", of(camera::kSkew)},
-          {"omega_deg", of(camera::kOmega)},
-          {"phi_deg", of(camera::kPhi)},
-          {"kappa_deg", of(camera::kKappa)}};
-}
-
-ordered_json WithPositions(const PerParameter& of) {
-  ordered_json all = Intrinsics(of);
+ordered_json WithPositions(const output::PerParameter& of) {
+  ordered_json all = output::IntrinsicsJson(of);
   all["x_m"] = of(camera::kX0);
   all["y_m"] = of(camera::kY0);
   all["z_m"] = of(camera::kZ0);
   return all;
-}
-
-ordered_json PoseJson(const PerParameter& of) {
-  ordered_json pose = Intrinsics(of);
-  pose["position_m"] = {of(camera::kX0), of(camera::kY0), of(camera::kZ0)};
-  return pose;
 }
 
 ordered_json CovarianceJson(const Estimate& estimate) {
@@ -112,12 +94,8 @@ ordered_json UnknownsJson(const model::Photograph& photograph) {
 ordered_json RectanglesJson(const Estimate& estimate) {
   ordered_json rectangles = ordered_json::array();
   for (const camera::RectangleView& rectangle : estimate.rectangles) {
-    ordered_json homography = ordered_json::array();
-    for (int i = 0; i < 3; ++i) {
-      const auto row = rectangle.dot_from_metres.row(i);
-      homography.push_back({row[0], row[1], row[2]});
-    }
-    rectangles.push_back({{"trace", rectangle.trace + 1}, {"homography", std::move(homography)}});
+    rectangles.push_back({{"trace", rectangle.trace + 1},
+                          {"homography", output::RowsJson(rectangle.dot_from_metres)}});
   }
   return rectangles;
 }
@@ -126,7 +104,7 @@ ordered_json RectanglesJson(const Estimate& estimate) {
 
 ordered_json CameraJson(const model::Element& element, const model::Photograph& photograph) {
   const Estimate& estimate = *photograph.estimate;
-  const auto value_of = [&](const camera::Camera& camera) -> PerParameter {
+  const auto value_of = [&](const camera::Camera& camera) -> output::PerParameter {
     return [&](Parameter p) -> ordered_json {
       if (estimate.parameters[p].free()) return nullptr;
       return camera[p] / camera::kParameterRows[p].per_unit;
@@ -137,7 +115,7 @@ ordered_json CameraJson(const model::Element& element, const model::Photograph& 
                        {"photograph", photograph.file},
                        {"size_px", {photograph.frame.size_px.x(), photograph.frame.size_px.y()}},
                        {"format_mm", {photograph.frame.size_mm.x(), photograph.frame.size_mm.y()}}};
-  json.update(PoseJson(value_of(estimate.camera)));
+  json.update(output::PoseJson(value_of(estimate.camera)));
   json["sigma"] = WithPositions([&](Parameter p) -> ordered_json {
     if (estimate.parameters[p].free() || !has_deviations) return nullptr;
     return estimate.parameters[p].sigma / camera::kParameterRows[p].per_unit;
@@ -156,7 +134,7 @@ ordered_json CameraJson(const model::Element& element, const model::Photograph& 
   if (estimate.trials.trials > 0) json["trials"] = TrialsJson(estimate.trials);
   json["alternatives"] = ordered_json::array();
   for (const camera::Estimate& other : estimate.alternatives) {
-    ordered_json alternative = PoseJson(value_of(other.camera));
+    ordered_json alternative = output::PoseJson(value_of(other.camera));
     alternative["chi2"] = other.chi2;
     json["alternatives"].push_back(std::move(alternative));
   }

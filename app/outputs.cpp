@@ -27,14 +27,6 @@ struct Request {
   std::string label = {};
 };
 
-// "elements/church.trn" → "church"
-std::string StemOf(const std::string& path) {
-  std::string name = path.substr(path.rfind('/') + 1);
-  const std::size_t dot = name.rfind('.');
-  if (dot != std::string::npos && dot > 0) name.resize(dot);
-  return name;
-}
-
 // The model first, then what the script asked for in its order; of two with one path the later
 // stays.
 std::vector<Request> RequestsOf(const interp::ScriptResult& result, const std::string& stem) {

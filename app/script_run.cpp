@@ -7,8 +7,6 @@ namespace tranos::app {
 
 namespace {
 
-std::string NameOf(const std::string& path) { return path.substr(path.rfind('/') + 1); }
-
 // The script's text, its sandbox made and memory limited from here on; with kFileFailed after
 // telling why, if there is none.
 std::string Open(const ScriptOptions& options, ScriptRun* run) {
@@ -73,6 +71,15 @@ std::string FolderOf(const std::string& path) {
   const std::size_t slash = path.rfind('/');
   if (slash == std::string::npos) return ".";
   return slash == 0 ? "/" : path.substr(0, slash);
+}
+
+std::string NameOf(const std::string& path) { return path.substr(path.rfind('/') + 1); }
+
+std::string StemOf(const std::string& path) {
+  std::string name = NameOf(path);
+  const std::size_t dot = name.rfind('.');
+  if (dot != std::string::npos && dot > 0) name.resize(dot);
+  return name;
 }
 
 ScriptRun RunScriptFile(const ScriptOptions& options, bool print_to_error,

@@ -37,5 +37,7 @@ void NamePathsFromHere(const ScriptOptions& options, ScriptRun* run);
 void PrintProblems(const ScriptRun& run);
 // The folder of a path, without its slash; "." if it names none.
 std::string FolderOf(const std::string& path);
+std::string NameOf(const std::string& path);  // "elements/church.trn" → "church.trn"
+std::string StemOf(const std::string& path);  // "elements/church.trn" → "church"
 
 }  // namespace tranos::app

@@ -5,6 +5,7 @@
 
 #include "app/console.h"
 #include "app/script_run.h"
+#include "interp/arithmetic.h"
 
 namespace tranos::app {
 
@@ -14,23 +15,6 @@ using model::Trace;
 
 // The photograph's name in the script: what it is called on the disk may be no name.
 constexpr std::string_view kName = "picture";
-
-// A string of the language with this text.
-std::string Quoted(const std::string& text) {
-  std::string quoted = "\"";
-  for (const char c : text) {
-    if (c == '\n') {
-      quoted += "\\n";
-      continue;
-    }
-    if (c == '"' || c == '\\') quoted += '\\';
-    if (c == '{' || c == '}') quoted += c;
-    quoted += c;
-  }
-  return quoted + "\"";
-}
-
-std::string NameOf(const std::string& path) { return path.substr(path.rfind('/') + 1); }
 
 interp::ScriptResult RunOn(const std::string& photo, const std::string& text) {
   const interp::Host host{[&photo](std::string_view) { return ReadNamedFile(photo); },
@@ -88,8 +72,7 @@ std::string InTheWay(const TraceOptions& options) {
 int TraceVerb(const TraceOptions& given) {
   TraceOptions options = given;
   if (options.output.empty()) {
-    const std::string name = NameOf(options.photo);
-    options.output = FolderOf(options.photo) + "/" + name.substr(0, name.rfind('.')) + ".trn";
+    options.output = FolderOf(options.photo) + "/" + StemOf(options.photo) + ".trn";
   }
   const auto bytes = ReadNamedFile(options.photo);
   if (!bytes) {
@@ -102,8 +85,9 @@ int TraceVerb(const TraceOptions& given) {
     PrintFailure(in_the_way);
     return kFileFailed;
   }
-  const std::string head = fmt::format("attach photo {} as {}\nprior default\nnoise=estimated\n",
-                                       Quoted(NameOf(options.photo)), kName);
+  const std::string head =
+      fmt::format("attach photo {} as {}\nprior default\nnoise=estimated\n",
+                  interp::KeyInText(model::Value::String(NameOf(options.photo))), kName);
   interp::ScriptResult result =
       RunOn(options.photo, head + "detect edges\ndetect vanishing points\n");
   const bool directed = !result.diagnostics.has_errors();

@@ -6,6 +6,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <numeric>
+#include <optional>
 
 #include "camera/estimation.h"
 #include "camera/parameter_table.h"
@@ -121,9 +122,10 @@ void Doubt(Trace& trace) {
 }
 
 // χ² by which all else is better off without a suspect, adjusted again, from where it is and from
-// the start, for a blunder may have taken the camera to another place; to first order where it is
-// not found.
-double FallOf(const Task& task, const Refined& refined, double chi2, const Suspect& suspect) {
+// the start, whose numbers these are, for a blunder may have taken the camera to another place; to
+// first order where it is not found.
+double FallOf(const Task& task, const Numbers* numbers, const Refined& refined, double chi2,
+              const Suspect& suspect) {
   std::vector<Photograph> photographs(task.photographs.begin(), task.photographs.end());
   std::vector<Unknown> unknowns(task.unknowns.begin(), task.unknowns.end());
   switch (suspect.kind) {
@@ -142,14 +144,13 @@ double FallOf(const Task& task, const Refined& refined, double chi2, const Suspe
       break;
   }
   const Task without{photographs, unknowns, task.numbers_of, task.layout, task.refine};
-  double rest = chi2 - suspect.fall;
-  const auto nearby = RefineAgain(without, refined);
-  if (nearby) rest = nearby->chi2;
-  const Eigen::VectorXd u = StartsOf(unknowns);
-  const auto numbers = task.numbers_of(u);
-  const auto anew = numbers ? Adjust(without, *numbers, u) : tl::unexpected(numbers.error());
-  if (anew) rest = nearby ? std::min(rest, anew->best.chi2) : anew->best.chi2;
-  return chi2 - rest;
+  std::optional<double> rest;
+  if (const auto nearby = RefineAgain(without, refined)) rest = nearby->chi2;
+  if (numbers) {
+    const auto anew = Adjust(without, *numbers, StartsOf(task.unknowns));
+    if (anew) rest = std::min(rest.value_or(anew->best.chi2), anew->best.chi2);
+  }
+  return rest ? chi2 - *rest : suspect.fall;
 }
 
 std::string SentenceOf(const Task& task, const Suspect& worst, const Suspect* rival, double chi2,
@@ -181,7 +182,10 @@ Disagreement DisagreementAt(const Task& task, const Refined& refined, const Line
   std::iota(order.begin(), order.end(), 0);
   std::ranges::stable_sort(order, {}, [&](std::size_t i) { return rest(suspects[i]); });
   order.resize(std::min(order.size(), kTried));
-  for (const std::size_t i : order) suspects[i].fall = FallOf(task, refined, chi2, suspects[i]);
+  const auto numbers = task.numbers_of(StartsOf(task.unknowns));
+  for (const std::size_t i : order) {
+    suspects[i].fall = FallOf(task, numbers ? &*numbers : nullptr, refined, chi2, suspects[i]);
+  }
   std::ranges::sort(order);
   double least = std::numeric_limits<double>::infinity();
   for (const std::size_t i : order) least = std::min(least, rest(suspects[i]));

@@ -71,7 +71,7 @@ geom::Result<DrawnPoint> DrawOnto(const Camera& camera, const Frame& frame,
   const Vec3 normal = plane.z();
   const double along = normal.dot(ray), height_m = normal.dot(plane.origin - view.position_m);
   if (std::abs(height_m) <= geom::kCoincident_m) {
-    return tl::unexpected(Error{ErrorCode::kDegenerate, "the camera stands in its plane"});
+    return tl::unexpected(Error{ErrorCode::kDegenerate, kInItsPlane});
   }
   if (std::abs(along) <= kParallel) {
     return tl::unexpected(Error{ErrorCode::kDegenerate, "the dot lies on its horizon"});

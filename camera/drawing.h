@@ -19,6 +19,9 @@ struct DrawnPoint {
 // How uncertain a drawn point may be, by its distance from the camera.
 inline constexpr double kMostUncertain = 0.1;
 
+// The detail of the error where the camera stands in the plane: then no dot is of a point of it.
+inline constexpr const char* kInItsPlane = "the camera stands in its plane";
+
 // Where the dot's ray meets the plane (Lemma 9 carried back). The point is where the image of what
 // lies in the plane is the dot, so that its derivatives are those of an implicit function: three
 // equations, two of the dot and one of the plane. Errors: kDegenerate where the ray runs along the

@@ -251,7 +251,9 @@ std::vector<Estimate> EstimatesOf(std::span<const Photograph> photographs,
   for (int p = 0; p < layout.cameras; ++p) {
     Estimate estimate = common;
     estimate.camera = CameraAt(refined.state, p);
-    if (!d.undetermined.empty()) estimate.undetermined = OpenOf(p, layout, quantities, determined);
+    estimate.undetermined = d.undetermined.empty() || layout.cameras == 1
+                                ? d.undetermined
+                                : OpenOf(p, layout, quantities, determined);
     for (int i = 0; i < kParameters; ++i) {
       const int column = kParameters * p + i;
       ParameterEstimate& parameter = estimate.parameters[i];

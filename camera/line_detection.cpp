@@ -311,8 +311,7 @@ geom::Result<std::vector<ImageLine>> DetectLines(const Photo& photo, const LineD
                                       "the photograph is less than 16 pixels wide or high"});
   const int longer = std::max(photo.width_px, photo.height_px);
   const int shorter = std::min(photo.width_px, photo.height_px);
-  const int factor =
-      std::min((longer + kLongestSide - 1) / kLongestSide, shorter / kShortestSide);
+  const int factor = std::min((longer + kLongestSide - 1) / kLongestSide, shorter / kShortestSide);
   const double min_px =
       (options.min_length_px > 0 ? options.min_length_px : std::max(12.0, 0.03 * shorter)) / factor;
 

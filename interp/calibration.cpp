@@ -396,8 +396,8 @@ namespace {
 bool HasUncertainNumbers(const model::Element& element) {
   const auto* trace = std::get_if<model::TracePtr>(&element.geometry);
   return trace && std::ranges::any_of((*trace)->numbers, [](const Value& number) {
-    return number.derivatives() != nullptr;
-  });
+           return number.derivatives() != nullptr;
+         });
 }
 
 }  // namespace

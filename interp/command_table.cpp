@@ -24,8 +24,7 @@ std::vector<Command> Collect() {
         ConstructCommands(), ConstructSolidCommands(), SolidBooleanCommands(), SymmetryCommands(),
         PlaneCommands(),     ViewCommands(),           OutputCommands(),       PhotographCommands(),
         FacadeCommands(),    PriorCommands(),          TraceCommands(),        DetectCommands(),
-        CalibrateCommands(),
-        HistoryCommands(),   LaterCommands()}) {
+        CalibrateCommands(), HistoryCommands(),        LaterCommands()}) {
     all.insert(all.end(), family.begin(), family.end());
   }
   std::stable_sort(all.begin(), all.end(), [](const Command& a, const Command& b) {

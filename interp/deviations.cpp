@@ -17,9 +17,6 @@ using model::Value;
 
 namespace {
 
-// Keys that name a facade.
-constexpr std::string_view kFacadeKeys[] = {"facade", "perpendicular", "parallel", "through"};
-
 template <class F>
 void ForEachElement(const Value& value, const F& f) {
   if (value.is_element()) return f(value.element());
@@ -58,10 +55,10 @@ class Beside {
         const ElementPtr current = before.model.Current(given->id);
         Note(current ? current : given);
       });
-      const bool names_facade =
-          std::find(std::begin(kFacadeKeys), std::end(kFacadeKeys), key) != std::end(kFacadeKeys);
-      if (!names_facade || !value.is_string()) continue;
-      if (const ElementPtr facade = model::FindFacade(before.model, value.string())) Note(facade);
+    }
+    for (const Key& key : row.keys) {  // what is known by a name is a facade
+      if (key.type != Type::kName || !answers.Has(key.name)) continue;
+      if (const auto facade = model::FindFacade(before.model, answers.Text(key.name))) Note(facade);
     }
     if (row.dots) {
       if (const auto photograph = CameraMeant(before, answers)) NoteCamera(*photograph);

@@ -6,6 +6,7 @@
 
 #include "camera/fspy.h"
 #include "output/camera_formats.h"
+#include "output/json_parts.h"
 
 namespace tranos::output {
 
@@ -32,11 +33,7 @@ struct Axes {
 
 ordered_json PointJson(const Vec2& point) { return {{"x", point.x()}, {"y", point.y()}}; }
 
-ordered_json TransformJson(const Eigen::Matrix4d& m) {
-  ordered_json rows = ordered_json::array();
-  for (int i = 0; i < 4; ++i) rows.push_back({m(i, 0), m(i, 1), m(i, 2), m(i, 3)});
-  return {{"rows", std::move(rows)}};
-}
+ordered_json TransformJson(const Eigen::Matrix4d& m) { return {{"rows", RowsJson(m)}}; }
 
 Axes AxesOf(const FspyCamera& camera) {
   Axes axes{{0, 1, 2}, camera.world_from_camera.topLeftCorner<3, 3>().transpose(), {}};

@@ -6,6 +6,7 @@
 
 #include "camera/parameter_table.h"
 #include "output/camera_formats.h"
+#include "output/json_parts.h"
 
 namespace tranos::output {
 
@@ -61,31 +62,6 @@ Pose PoseOf(const camera::Camera& camera) {
   return {r, -r * camera.position_m()};
 }
 
-template <class Matrix>
-ordered_json RowsOf(const Matrix& m) {
-  ordered_json rows = ordered_json::array();
-  for (int i = 0; i < m.rows(); ++i) {
-    ordered_json row = ordered_json::array();
-    for (int j = 0; j < m.cols(); ++j) row.push_back(m(i, j));
-    rows.push_back(std::move(row));
-  }
-  return rows;
-}
-
-ordered_json ParametersJson(const camera::Camera& camera) {
-  const auto of = [&](camera::Parameter p) {
-    return camera[p] / camera::kParameterRows[p].per_unit;
-  };
-  return {{"f_mm", of(camera::kFocal)},
-          {"aspect", of(camera::kAspect)},
-          {"principal_mm", {of(camera::kPrincipalX), of(camera::kPrincipalY)}},
-          {"skew_deg", of(camera::kSkew)},
-          {"omega_deg", of(camera::kOmega)},
-          {"phi_deg", of(camera::kPhi)},
-          {"kappa_deg", of(camera::kKappa)},
-          {"position_m", {of(camera::kX0), of(camera::kY0), of(camera::kZ0)}}};
-}
-
 }  // namespace
 
 std::string OpenCvYamlOf(const NamedCamera& named) {
@@ -125,11 +101,13 @@ std::string ExactCameraOf(const model::Element& photograph) {
                        {"photograph", taken.file},
                        {"size_px", {taken.frame.size_px.x(), taken.frame.size_px.y()}},
                        {"format_mm", {taken.frame.size_mm.x(), taken.frame.size_mm.y()}}};
-  json.update(ParametersJson(framed.camera));
-  json["K"] = RowsOf(camera::DotFromCamera(framed));
-  json["R"] = RowsOf(r);
+  json.update(PoseJson([&](camera::Parameter p) -> ordered_json {
+    return framed.camera[p] / camera::kParameterRows[p].per_unit;
+  }));
+  json["K"] = RowsJson(camera::DotFromCamera(framed));
+  json["R"] = RowsJson(r);
   json["t_m"] = {t.x(), t.y(), t.z()};
-  json["P"] = RowsOf(camera::DotFromWorld(framed.camera, framed.frame));
+  json["P"] = RowsJson(camera::DotFromWorld(framed.camera, framed.frame));
   for (const auto& [key, shape] : {std::pair{"unskewed", camera::PixelShape::kRectangular},
                                    {"square", camera::PixelShape::kSquare}}) {
     const auto view = camera::UnskewedOf(framed, shape);
@@ -137,8 +115,8 @@ std::string ExactCameraOf(const model::Element& photograph) {
     const Eigen::Vector2i size = view->view.frame.size_px;
     json[key] = {{"changed", view->changed},
                  {"size_px", {size.x(), size.y()}},
-                 {"K", RowsOf(WithoutSkew(view->view))},
-                 {"new_dot_from_dot", RowsOf(view->new_dot_from_dot)}};
+                 {"K", RowsJson(WithoutSkew(view->view))},
+                 {"new_dot_from_dot", RowsJson(view->new_dot_from_dot)}};
   }
   return json.dump(1, ' ', false, ordered_json::error_handler_t::replace) + "\n";
 }

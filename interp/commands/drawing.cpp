@@ -47,7 +47,7 @@ void AddFacadeTerms(const model::Element& facade, const camera::DrawnPoint& draw
 
 CommandError BadDot(const geom::Error& error, const model::Facade& facade, const Vec2& dot_px) {
   const std::string name = Printable(facade.name);
-  const bool is_edge_on = error.detail == "the camera stands in its plane";
+  const bool is_edge_on = error.detail == camera::kInItsPlane;
   return {.code = Code::kBadDot,
           .message = fmt::format("the dot {:g},{:g} is of no point of the facade `{}`: {}",
                                  dot_px.x(), dot_px.y(), name, error.detail),
@@ -112,7 +112,7 @@ tl::expected<ElementPtr, CommandError> CameraMeant(const State& state, const Ans
   auto photograph = PhotographMeant(state, answers.Has("photo") ? answers : Answers{});
   if (!photograph) return photograph;
   const auto& estimate = PhotographOf(**photograph).estimate;
-  if (!estimate || !estimate->determined()) return Fail(NoCameraYet(**photograph));
+  if (!estimate || !estimate->complete()) return Fail(NoCameraYet(**photograph));
   return photograph;
 }
 
@@ -257,7 +257,7 @@ tl::expected<PlacedPoint, CommandError> DrawDot(const State& state, const Vec2& 
   const model::Photograph& photograph = PhotographOf(**meant);
   const camera::Estimate& estimate = *photograph.estimate;
   if (auto error = OutsidePhotograph(photograph.frame, dot_px, Code::kBadDot)) return Fail(*error);
-  if (!estimate.determined()) {
+  if (!estimate.complete()) {
     return DrawByRectangle(state, **meant, FacadeOf(*facade), dot_px, source_of);
   }
   const auto drawn =

@@ -93,7 +93,7 @@ CommandResult ExportCamera(const State& state, const Answers& answers, model::Ca
   const auto found = PhotographAt(state, answers, "camera");
   if (!found) return Fail(found.error());
   const model::Photograph& photograph = PhotographOf(**found);
-  if (!photograph.estimate || !photograph.estimate->determined()) return Fail(NoCameraYet(**found));
+  if (!photograph.estimate || !photograph.estimate->complete()) return Fail(NoCameraYet(**found));
   model::CameraRequest request{*found, nullptr, format, answers.Text("file")};
   const bool is_stated = photograph.file.empty();
   if (is_stated && format == model::CameraFormat::kFspyProject) {
@@ -115,7 +115,7 @@ CommandResult ExportCamera(const State& state, const Answers& answers, model::Ca
   return fired;
 }
 
-CommandResult Export(const State& state, const Answers& answers, const Surroundings&) {
+CommandResult Export(const State& state, const Answers& answers) {
   const std::string file = answers.Text("file");
   if (file.empty()) {
     return Fail({.code = Code::kMissingValue,
@@ -218,7 +218,7 @@ constexpr Command kCommands[] = {
      .options = "fspy|opencv|colmap|blender|exact",
      .string_key = "file",
      .examples = kExportExamples,
-     .execute_with = Export},
+     .execute = Export},
     {.words = "print",
      .family = "output",
      .summary = "Says something while the script runs.",

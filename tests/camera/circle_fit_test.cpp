@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Circles seen obliquely, from dots with noise. bench/camera_benchmark has the figures of a
-// thousand seeds.
+// Circles seen obliquely, from dots with noise. bench/camera_benchmark has the figures of more
+// seeds.
 #include "camera/circle_fit.h"
 
 #include <gtest/gtest.h>

@@ -113,8 +113,7 @@ TEST(Row, PromptsFitTheManner) {
 }
 
 TEST(Row, LaterCommandsAreKnown) {
-  for (const std::string_view words :
-       {"place dimension", "attach drawing", "highlight", "plot"}) {
+  for (const std::string_view words : {"place dimension", "attach drawing", "highlight", "plot"}) {
     const Command* row = FindCommand(words);
     ASSERT_NE(row, nullptr) << words;
     EXPECT_FALSE(IsCarriedOut(*row)) << words;
