@@ -3,8 +3,9 @@
 
 #include <algorithm>
 #include <new>
-#include <thread>
 
+#include "app/photo_truth.h"
+#include "output/png.h"
 #include "output/write.h"
 
 namespace tranos::app {
@@ -49,13 +50,34 @@ std::vector<Request> RequestsOf(const interp::ScriptResult& result, const std::s
   int picture = 0;
   for (std::size_t i = 0; i < outcome.outputs.size(); ++i) {
     const model::OutputRequest& what = outcome.outputs[i];
-    const auto* render = std::get_if<model::RenderRequest>(&what);
-    std::string path = render ? render->file : std::get<model::ExportRequest>(what).file;
-    if (render && path.empty()) path = stem + "-" + std::to_string(++picture) + ".png";
+    std::string path = std::visit([](const auto& request) { return request.file; }, what);
+    if (std::holds_alternative<model::RenderRequest>(what) && path.empty()) {
+      path = stem + "-" + std::to_string(++picture) + ".png";
+    }
     add(what, std::move(path), outcome.output_spans[i]);
   }
   return all;
 }
+
+// One function for each kind of output: its bytes.
+struct Maker {
+  int threads;
+
+  output::Result<std::string> operator()(const model::ExportRequest& request) const {
+    return output::ExportOf(request.model, request.file);
+  }
+  output::Result<std::string> operator()(const model::RenderRequest& request) const {
+    return output::PictureFileOf(request, threads);
+  }
+  output::Result<std::string> operator()(const model::PhotoFileRequest& request) const {
+    if (request.file.ends_with(".json")) {
+      const std::string stem = request.file.substr(0, request.file.size() - 5);
+      return PhotoTruthJson(*request.taken_as, stem + ".png");
+    }
+    return output::PngOf(
+        {request.pixels->width_px, request.pixels->height_px, request.pixels->rgb});
+  }
+};
 
 tl::expected<std::string, Diagnostic> BytesOf(const Request& request, int threads) {
   const auto refused = [&](Code code, std::string why, std::string help) {
@@ -64,10 +86,7 @@ tl::expected<std::string, Diagnostic> BytesOf(const Request& request, int thread
                                      request.label, std::move(help)});
   };
   try {
-    const auto* exported = std::get_if<model::ExportRequest>(&request.what);
-    auto bytes = exported
-                     ? output::ExportOf(exported->model, exported->file)
-                     : output::PictureFileOf(std::get<model::RenderRequest>(request.what), threads);
+    auto bytes = std::visit(Maker{threads}, request.what);
     if (bytes) return std::move(*bytes);
     return refused(Code::kTooManyFacets, bytes.error().message,
                    "a larger `tol` or a smaller `fn` gives fewer facets");
@@ -96,9 +115,7 @@ Written Failed(Diagnostic diagnostic) {
 }  // namespace
 
 Written WriteOutputs(const ScriptRun& run, const RunVerbOptions& options, Progress* progress) {
-  const int threads = options.threads > 0
-                          ? options.threads
-                          : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  const int threads = ThreadsOf(options.script.threads);
   const std::vector<Request> requests = RequestsOf(run.result, StemOf(options.script.script));
   auto writer = Writer::Into(options.output, run.sandbox.get());
   if (!writer) return Failed(FromHost(writer.error(), options.output, kNoPlace));

@@ -17,6 +17,7 @@ struct ScriptOptions {
   std::string hypothesis;
   interp::Limits limits;
   std::vector<std::string> allow;  // further folders that may be read
+  int threads = 0;                 // of pictures; 0: as many as there are cores
 };
 
 struct RunVerbOptions {
@@ -25,7 +26,6 @@ struct RunVerbOptions {
   bool json = false;
   bool no_output = false;
   std::string journal;
-  int threads = 0;  // 0: as many as there are cores
 };
 int RunVerb(const RunVerbOptions& options);
 
@@ -68,8 +68,8 @@ int GalleryVerb(const GalleryOptions& options);
 
 struct SoakOptions {
   std::vector<std::string> names;  // families or elements; none: all
-  std::string folder;  // of the library's files; "": those that the program was built of
-  int settings = 200;  // random ones of each element and detail, besides the defaults
+  std::string folder;      // of the library's files; "": those that the program was built of
+  int settings = 200;      // random ones of each element and detail, besides the defaults
   bool corners = true;     // and the ends of the ranges
   bool crossings = false;  // whether solids at the defaults cross themselves, which takes its time
   std::uint64_t seed = 1;

@@ -103,7 +103,7 @@ Outcome Machine::Run() {
 void Machine::EvaluateSolids(const model::Model& last) const {
   const auto force = [&](const model::ElementPtr& element) { solids_.Force(*element, {}); };
   for (const model::OutputRequest& output : outcome_.outputs) {
-    std::visit([&](const auto& request) { request.model.ForEach(force); }, output);
+    model::ModelOf(output).ForEach(force);
   }
   last.ForEach(force);
 }

@@ -7,6 +7,7 @@
 #include <variant>
 #include <vector>
 
+#include "model/photo_request.h"
 #include "model/state.h"
 
 namespace tranos::model {
@@ -21,7 +22,16 @@ struct ExportRequest {
   Model model;
   std::string file;  // its extension chooses the format
 };
-using OutputRequest = std::variant<RenderRequest, ExportRequest>;
+// A photograph that has been taken; the extension chooses between the picture and how it came to
+// be.
+struct PhotoFileRequest {
+  std::shared_ptr<const PhotoRequest> taken_as;
+  camera::PhotoPtr pixels;
+  std::string file;
+};
+using OutputRequest = std::variant<RenderRequest, ExportRequest, PhotoFileRequest>;
+// The model that it shows or tells of.
+const Model& ModelOf(const OutputRequest& request);
 
 struct Edit {
   std::vector<ElementPtr> added;     // Apply gives them their ids, in order

@@ -280,7 +280,7 @@ std::string TypeOf(const Element& element) {
     std::string operator()(const GroupPtr&) const { return "group"; }
     std::string operator()(const InstancePtr& instance) const { return instance->prototype->words; }
     std::string operator()(const PhotographPtr& photograph) const {
-      return photograph->attached || photograph->picture ? "photograph" : "camera";
+      return IsStatedCamera(*photograph) ? "camera" : "photograph";
     }
     std::string operator()(const TracePtr& trace) const { return model::TypeOf(*trace); }
   };

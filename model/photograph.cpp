@@ -20,6 +20,10 @@ double Rounded(double number) {
 
 }  // namespace
 
+bool IsStatedCamera(const Photograph& photograph) {
+  return !photograph.attached && photograph.content == Hash128{};
+}
+
 void AddToHash(Hasher& hasher, const Photograph& photograph) {
   hasher.Text(photograph.file).Hash(photograph.content).Tag(photograph.attached);
   const auto& [size_mm, size_px] = photograph.frame;

@@ -53,6 +53,8 @@ struct Trace {
   double samples = 0;     // pixels that the line was fitted to; 0: its dots alone
 };
 
+// Whether it is a camera that was stated, with no picture to it.
+bool IsStatedCamera(const Photograph& photograph);
 void AddToHash(Hasher& hasher, const Photograph& photograph);
 void AddToHash(Hasher& hasher, const Trace& trace);
 std::string TypeOf(const Trace& trace);  // "trace edge", "trace rectangle", …

@@ -13,7 +13,7 @@
 #include <utility>
 
 #include "output/facets.h"
-#include "output/surface_colour.h"
+#include "output/material.h"
 
 namespace tranos::output {
 namespace {
@@ -424,8 +424,8 @@ int GlbBuilder::MaterialOf(const Attributes& attributes, bool surface) {
       materials_.try_emplace({attributes.colour.code, attributes.material, surface},
                              static_cast<int>(file_.materials.size()));
   if (is_new) {
-    const model::Rgb rgb =
-        surface ? SurfaceColour(attributes.colour) : model::RgbOf(attributes.colour);
+    const model::Rgb rgb = surface ? SurfaceColour(attributes.colour, attributes.material)
+                                   : model::RgbOf(attributes.colour);
     tinygltf::Material material;
     material.name = attributes.material.empty() ? "colour " + model::Describe(attributes.colour)
                                                 : attributes.material;

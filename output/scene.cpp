@@ -5,13 +5,12 @@
 #include <cmath>
 #include <limits>
 #include <memory>
-#include <unordered_map>
 #include <utility>
 
-#include "output/facets.h"
+#include "output/material.h"
 #include "output/mesh_lines.h"
 #include "output/parallel.h"
-#include "output/surface_colour.h"
+#include "output/parts.h"
 
 namespace tranos::output {
 namespace {
@@ -27,46 +26,11 @@ constexpr int kIsoPoints = 96;
 constexpr float kIsoOpacity = 0.4f;
 constexpr float kPointArm_px = 4;  // from a point's cross's centre to its ends
 
-// A visible part: where it stands and how it looks; what it is, is shared by all its placements.
-struct Placement {
-  std::size_t part;
-  Affine world_from_part;
-  model::Colour colour;
-  int linestyle, weight;
-};
-struct Part {
-  const model::Element* element = nullptr;
-  double largest_scale = 0;  // of its placements
-  geom::Box box;
-  Facets facets;
-  Vec3 centre = Vec3::Zero();
-  std::shared_ptr<const RayMesh> ray_mesh;
+// What a drawing shows of a part's mesh besides its faces.
+struct PartLines {
   std::vector<MeshEdge> edges;
   std::vector<std::vector<Vec3>> feature_lines, form_lines;
 };
-struct Parts {
-  std::vector<Part> parts;
-  std::vector<Placement> placements;
-};
-
-Parts VisibleParts(const model::Model& model) {
-  Parts result;
-  std::unordered_map<const model::Element*, std::size_t> known;
-  model.ForEach([&](const model::ElementPtr& element) {
-    model::ForEachLeaf(*element, [&](const model::Element& leaf, const Affine& world_from_leaf,
-                                     const model::Attributes& attributes) {
-      if (!model.LevelIsOn(attributes.level)) return;
-      const auto [entry, is_new] = known.try_emplace(&leaf, result.parts.size());
-      if (is_new) result.parts.emplace_back().element = &leaf;
-      Part& part = result.parts[entry->second];
-      part.largest_scale =
-          std::max(part.largest_scale, world_from_leaf.linear().colwise().norm().maxCoeff());
-      result.placements.push_back({entry->second, world_from_leaf, attributes.colour,
-                                   attributes.linestyle, attributes.weight});
-    });
-  });
-  return result;
-}
 
 // The length a pixel shows at most: from the boxes' corners, before there are facets to be
 // measured.
@@ -117,57 +81,30 @@ std::vector<std::vector<Vec3>> IsoLines(const geom::Surface& surface) {
   return lines;
 }
 
-std::shared_ptr<const RayMesh> RayMeshOf(const geom::Mesh& mesh, const Vec3& centre) {
-  const auto result = std::make_shared<RayMesh>();
-  const auto rounded = [](const Vec3& v) {
-    return std::array<float, 3>{static_cast<float>(v.x()), static_cast<float>(v.y()),
-                                static_cast<float>(v.z())};
-  };
-  for (const Vec3& p : mesh.positions) result->positions.push_back(rounded(p - centre));
-  for (const Vec3& n : mesh.normals) result->normals.push_back(rounded(n));
-  result->triangles = mesh.triangles;
-  return result;
-}
-
-std::optional<Error> CompletePart(Part& part, double pixel_m, model::RenderMode mode) {
-  const geom::Tolerance tolerance = {kChord_px * pixel_m / std::max(part.largest_scale, 1e-12),
-                                     part.element->tolerance.facets_per_turn};
-  Result<Facets> facets = FacetsOf(*part.element, tolerance);
-  if (!facets) return facets.error();
-  part.facets = *std::move(facets);
+PartLines LinesOf(const Part& part) {
   const geom::Mesh& mesh = part.facets.mesh;
-  if (mesh.triangles.empty()) return std::nullopt;
-  part.centre = part.box.centre();
-  part.ray_mesh = RayMeshOf(mesh, part.centre);
-  if (mode == model::RenderMode::kPhong) return std::nullopt;
-  part.edges = EdgesOf(mesh);
-  part.feature_lines = LinesAlong(FeatureEdges(part.edges), mesh);
+  PartLines lines;
+  lines.edges = EdgesOf(mesh);
+  lines.feature_lines = LinesAlong(FeatureEdges(lines.edges), mesh);
   // A region's outlines are all there is to see of it.
-  if (std::holds_alternative<model::RegionPtr>(part.element->geometry)) return std::nullopt;
+  if (std::holds_alternative<model::RegionPtr>(part.element->geometry)) return lines;
   const auto* surface = std::get_if<model::SurfacePtr>(&part.element->geometry);
-  if (tolerance.facets_per_turn > 0) {
-    part.form_lines = LinesAlong(FacetEdges(mesh, part.edges), mesh);
+  if (part.element->tolerance.facets_per_turn > 0) {
+    lines.form_lines = LinesAlong(FacetEdges(mesh, lines.edges), mesh);
   } else if (surface && !IsFlat(mesh)) {
-    part.form_lines = IsoLines(**surface);
+    lines.form_lines = IsoLines(**surface);
   }
-  return std::nullopt;
+  return lines;
 }
 
-std::optional<Error> CompleteParts(Parts& parts, const geom::Frame& directions,
-                                   const model::RenderRequest& request, int threads) {
-  const std::size_t count = parts.parts.size();
-  ParallelFor(count, threads, [&](std::size_t i) {
-    parts.parts[i].box = model::BoundingBox(*parts.parts[i].element);
+// Of each part; empty in shaded pictures, whose surfaces have no lines.
+std::vector<PartLines> LinesOf(const Parts& parts, model::RenderMode mode, int threads) {
+  std::vector<PartLines> lines(parts.parts.size());
+  if (mode == model::RenderMode::kPhong) return lines;
+  ParallelFor(parts.parts.size(), threads, [&](std::size_t i) {
+    if (parts.parts[i].ray_mesh) lines[i] = LinesOf(parts.parts[i]);
   });
-  const double pixel_m = RoughPixel(parts, directions, request);
-  std::vector<std::optional<Error>> errors(count);
-  ParallelFor(count, threads, [&](std::size_t i) {
-    errors[i] = CompletePart(parts.parts[i], pixel_m, request.view.mode);
-  });
-  for (const std::optional<Error>& error : errors) {
-    if (error) return error;
-  }
-  return std::nullopt;
+  return lines;
 }
 
 // Around what is drawn, along the view's axes.
@@ -192,6 +129,7 @@ struct PlacementDrawer {
   Scene& scene;
   model::RenderMode mode;
   const Part& part;
+  const PartLines& lines;
   const Placement& placement;
   Affine picture_from_part;
 
@@ -203,8 +141,8 @@ struct PlacementDrawer {
     stroke.width_px = static_cast<float>(std::max(placement.weight, 1));
     return stroke;
   }
-  void AddLines(const std::vector<std::vector<Vec3>>& lines, const Stroke& like) {
-    for (const auto& line : lines) {
+  void AddLines(const std::vector<std::vector<Vec3>>& polylines, const Stroke& like) {
+    for (const auto& line : polylines) {
       Stroke& stroke = scene.strokes.emplace_back(like);
       for (const Vec3& p : line) stroke.vertices.push_back(InPicture(p));
     }
@@ -221,7 +159,7 @@ struct PlacementDrawer {
   }
   void AddOutlines() {
     const geom::Mesh& mesh = part.facets.mesh;
-    const std::vector<MeshEdge> edges = OutlineEdges(mesh, part.edges, picture_from_part);
+    const std::vector<MeshEdge> edges = OutlineEdges(mesh, lines.edges, picture_from_part);
     for (const EdgeLine& line : JoinEdges(edges)) {
       Stroke stroke = Empty();
       for (const std::uint32_t vertex : line.vertices) {
@@ -251,14 +189,14 @@ struct PlacementDrawer {
     Affine picture_from_mesh = picture_from_part;
     picture_from_mesh.translation() = picture_from_part * part.centre;
     scene.surfaces.push_back({part.ray_mesh, picture_from_mesh.affine().cast<float>()});
-    scene.surface_colours.push_back(ShadeOf(SurfaceColour(placement.colour)));
+    scene.surface_colours.push_back(ShadeOf(SurfaceColour(placement.colour, placement.material)));
     if (mode == model::RenderMode::kPhong) return;
     Stroke form = Empty();
     form.opacity = kIsoOpacity;
     form.linestyle = 0;
     form.width_px = 1;
-    AddLines(part.form_lines, form);
-    AddLines(part.feature_lines, Empty());
+    AddLines(lines.form_lines, form);
+    AddLines(lines.feature_lines, Empty());
     if (mode == model::RenderMode::kHidden) AddOutlines();
   }
   void AddAll() {
@@ -274,10 +212,12 @@ Result<Scene> SceneOf(const model::RenderRequest& request, int threads) {
   const model::View& view = request.view;
   const geom::Frame directions =
       model::FrameOf(view.direction.empty() ? std::string_view("iso") : view.direction);
-  Parts parts = VisibleParts(request.model);
-  if (auto error = CompleteParts(parts, directions, request, threads)) {
+  Parts parts = VisibleParts(request.model, threads);
+  const double pixel_m = RoughPixel(parts, directions, request);
+  if (auto error = MakeFacets(parts, kChord_px * pixel_m, threads)) {
     return tl::unexpected(*std::move(error));
   }
+  const std::vector<PartLines> lines = LinesOf(parts, view.mode, threads);
   Scene scene;
   const geom::Box box = BoxInView(parts, directions);
   scene.camera = FitCamera(directions, box, request.width_px, request.height_px);
@@ -288,7 +228,11 @@ Result<Scene> SceneOf(const model::RenderRequest& request, int threads) {
   }
   const Affine picture_from_world = scene.camera.picture_from_world();
   for (const Placement& placement : parts.placements) {
-    PlacementDrawer{scene, view.mode, parts.parts[placement.part], placement,
+    PlacementDrawer{scene,
+                    view.mode,
+                    parts.parts[placement.part],
+                    lines[placement.part],
+                    placement,
                     picture_from_world * placement.world_from_part}
         .AddAll();
   }

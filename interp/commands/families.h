@@ -28,6 +28,7 @@ std::span<const Command> PlaneCommands();
 std::span<const Command> ViewCommands();        // set view, view, level
 std::span<const Command> OutputCommands();      // render, export, print
 std::span<const Command> PhotographCommands();  // attach, cameras
+std::span<const Command> RenderPhotoCommands();
 std::span<const Command> PriorCommands();
 std::span<const Command> TraceCommands();
 std::span<const Command> CalibrateCommands();

@@ -27,7 +27,6 @@ constexpr Later kLater[] = {
     Row("detect edges", "photograph", "Proposes the image lines of a photograph's edges."),
     Row("recover facade", "photograph", "Finds a facade perpendicular to a known one."),
     Row("set facade", "set", "Makes a facade the active plane, onto which dots are projected."),
-    Row("render photo", "photograph", "Makes a photograph of the model as a camera sees it."),
     Row("view camera", "view", "The view through a photograph's camera."),
     Row("plot", "output", "Draws a sheet at a scale."),
     Row("highlight", "output", "Shows elements in a colour that stands out, for debugging."),

@@ -20,8 +20,6 @@ using model::Value;
 
 namespace {
 
-constexpr double kLongerSide = 36;  // mm, unless the format is stated
-
 // Two numbers above zero; nothing if they are something else.
 std::optional<geom::Vec2> PairOf(const Value& value, double unit) {
   if (!value.is_list() || value.list().size() != 2) return std::nullopt;
@@ -68,22 +66,44 @@ tl::expected<PhotographFile, CommandError> ReadPhotograph(const std::string& fil
       .first->second;
 }
 
+// The picture that is attached: in a file, or one made by `render photo`.
+tl::expected<PhotographFile, CommandError> PictureMeant(const State& state, const Answers& answers,
+                                                        const Surroundings& surroundings) {
+  const std::string file = answers.Text("file");
+  if (!file.empty() && answers.words.empty()) return ReadPhotograph(file, surroundings);
+  if (file.empty() == answers.words.empty()) {
+    return Fail({.code = Code::kMissingValue,
+                 .message = "which photograph: a file, or one made by `render photo`?",
+                 .help = "attach photo \"fire_1917.png\" as fire"});
+  }
+  const auto made = PhotographMeant(state, answers);
+  if (!made) return Fail(made.error());
+  const model::Photograph& photograph = PhotographOf(**made);
+  if (!model::IsStatedCamera(photograph)) {
+    return PhotographFile{photograph.content, photograph.frame.size_px, photograph.picture};
+  }
+  return Fail({.code = Code::kNoPhotograph,
+               .message = fmt::format("{} is a stated camera: there is no photograph of it",
+                                      NameForMessage(**made)),
+               .help = "`render photo camera=… as p` takes one"});
+}
+
 CommandResult AttachPhoto(const State& state, const Answers& answers,
                           const Surroundings& surroundings) {
-  const std::string file = answers.Text("file");
-  const auto read = ReadPhotograph(file, surroundings);
-  if (!read) return Fail(read.error());
-  model::Photograph photograph{
-      .file = file, .content = read->content, .picture = read->picture, .attached = true};
-  photograph.frame.size_px = read->size_px;
+  const auto picture = PictureMeant(state, answers, surroundings);
+  if (!picture) return Fail(picture.error());
+  model::Photograph photograph{.file = answers.Text("file"),
+                               .content = picture->content,
+                               .picture = picture->picture,
+                               .attached = true};
+  photograph.frame.size_px = picture->size_px;
   if (const Value* format = answers.Find("format")) {
     const auto size_mm = FormatOf(*format);
     if (!size_mm) return Fail(size_mm.error());
     photograph.frame.size_mm = *size_mm;
   } else {
     photograph.format_is_stated = false;
-    photograph.frame.size_mm = photograph.frame.size_px.cast<double>() *
-                               (kLongerSide / photograph.frame.size_px.maxCoeff());
+    photograph.frame.size_mm = UnstatedFormat(photograph.frame.size_px);
   }
   Fired fired = *Make(state, std::make_shared<const model::Photograph>(std::move(photograph)));
   fired.edit.photograph = model::kAddedBase;
@@ -228,7 +248,7 @@ CommandResult StepCamera(const State& state, const Answers& answers) {
 constexpr Key kPhotoKey = {"photo", Type::kElement,
                            "the photograph; the one last attached or set without"};
 constexpr Key kAttachKeys[] = {
-    {"file", Type::kString, "the photograph: PNG, JPEG or TIFF", {}, {}, -1, true},
+    {"file", Type::kString, "the photograph: PNG, JPEG or TIFF; or the name of one that was made"},
     {"format",
      Type::kLength,
      "width and height of the negative or sensor; 36 mm along the longer "
@@ -274,7 +294,11 @@ constexpr auto kStepKeys = StepKeys();
 
 constexpr Example kAttachExamples[] = {
     {"attach photo \"facade.png\" format=36mm,24mm as hall", "hall.width == 1600px"},
-    {"attach photo \"facade.txt\"", "E0701"}};
+    {"attach photo \"facade.txt\"", "E0701"},
+    {"place block xy=0,0,0 dl=8,6\n" TRANOS_CAMERA
+     "render photo camera=paper seed=1 as p; attach photo p format=36mm,24mm as fire",
+     "fire.width == 1600px"},
+    {TRANOS_CAMERA "attach photo paper", "E0901"}};
 constexpr Example kPlaceCameraExamples[] = {
     {TRANOS_CAMERA, "paper.focal == 35mm"},
     {"place camera f=0mm format=36mm,24mm size=1600,1067 xy=0,0,0", "E0212"}};
@@ -296,8 +320,10 @@ constexpr Example kStepExamples[] = {
 constexpr Command kCommands[] = {
     {.words = "attach photo",
      .family = "photograph",
-     .summary = "Brings in a photograph with the format of its negative or sensor.",
+     .summary = "Brings in a photograph, from a file or made by `render photo`, with the format of "
+                "its negative or sensor.",
      .keys = kAttachKeys,
+     .asks = "photograph",
      .string_key = "file",
      .examples = kAttachExamples,
      .execute_with = AttachPhoto},

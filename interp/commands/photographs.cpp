@@ -35,14 +35,15 @@ tl::expected<ElementPtr, CommandError> PhotographNamed(const model::State& state
 }  // namespace
 
 tl::expected<ElementPtr, CommandError> PhotographMeant(const model::State& state,
-                                                       const Answers& answers) {
-  if (const model::Value* given = answers.Find("photo")) {
+                                                       const Answers& answers,
+                                                       std::string_view key) {
+  if (const model::Value* given = answers.Find(key)) {
     const ElementPtr current = state.model.Current(given->element()->id);
     if (current && IsPhotograph(*current)) return current;
     return Fail({.code = Code::kWrongElement,
-                 .message = fmt::format("`photo=` is a photograph or camera, and this is {}",
+                 .message = fmt::format("`{}=` is a photograph or camera, and this is {}", key,
                                         NameForMessage(*given->element())),
-                 .where = {Where::kKey, 0, "photo"}});
+                 .where = AtKey(key)});
   }
   for (const std::string& word : answers.words) {
     if (word != "default") return PhotographNamed(state, word);
@@ -62,9 +63,14 @@ ElementPtr WithPhotograph(const model::Element& element, model::Photograph photo
                              std::make_shared<const model::Photograph>(std::move(photograph)));
 }
 
+geom::Vec2 UnstatedFormat(const Eigen::Vector2i& size_px) {
+  constexpr double kLongerSide_mm = 36;
+  return size_px.cast<double>() * (kLongerSide_mm / size_px.maxCoeff());
+}
+
 tl::expected<camera::PhotoPtr, CommandError> PixelsOf(const model::Element& photograph) {
   const model::Photograph& taken = PhotographOf(photograph);
-  if (!taken.picture && taken.file.empty()) {
+  if (model::IsStatedCamera(taken)) {
     return Fail({.code = Code::kNoPhotograph,
                  .message = fmt::format("{} is a stated camera: there is no photograph of it",
                                         NameForMessage(photograph)),

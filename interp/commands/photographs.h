@@ -8,13 +8,16 @@ namespace tranos::interp {
 
 inline constexpr double kDegree = geom::kPi / 180;
 
-// The photograph or camera that a statement means: by its name in a bare word, by photo=, or the
-// one last attached or set.
+// The photograph or camera that a statement means: by its name in a bare word, by photo= (or the
+// key with this name), or the one last attached or set.
 tl::expected<model::ElementPtr, CommandError> PhotographMeant(const model::State& state,
-                                                              const Answers& answers);
+                                                              const Answers& answers,
+                                                              std::string_view key = "photo");
 const model::Photograph& PhotographOf(const model::Element& element);
 model::ElementPtr WithPhotograph(const model::Element& element, model::Photograph photograph);
 CommandError NoCameraYet(const model::Element& photograph);
+// Width and height in mm of a negative of which nothing is said: 36 mm along its longer side.
+geom::Vec2 UnstatedFormat(const Eigen::Vector2i& size_px);
 // What is seen on a photograph: upright, 8 bits a channel, the same object however often it is
 // asked for in a run. Errors: kNoPhotograph (a stated camera, a damaged file), kCannotRead (a
 // replay, which has no pixels).

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "model/photo_request.h"
+
+#include "model/edit.h"
+#include "model/element.h"
+
+namespace tranos::model {
+
+Hash128 HashOf(const PhotoRequest& request) {
+  Hasher hasher;
+  hasher.Hash(request.model.hash).Hash(request.taken->hash);
+  if (request.model.hidden_levels) {
+    for (const std::string& level : *request.model.hidden_levels) hasher.Text(level);
+  }
+  hasher.Integer(request.frame.size_px.x()).Integer(request.frame.size_px.y());
+  hasher.Ratio(request.distortion.k1).Ratio(request.distortion.k2).Direction(request.towards_sun);
+  const PrintEffects& e = request.effects;
+  for (const double share :
+       {e.grain, e.vignette, e.fade, e.dust, e.scratches, e.stains, e.paper, e.scan}) {
+    hasher.Ratio(share);
+  }
+  hasher.Tag(static_cast<std::uint8_t>(request.tone));
+  hasher.Integer(static_cast<std::int64_t>(request.seed));
+  return hasher.Finish();
+}
+
+const Model& ModelOf(const OutputRequest& request) {
+  if (const auto* photo = std::get_if<PhotoFileRequest>(&request)) return photo->taken_as->model;
+  if (const auto* exported = std::get_if<ExportRequest>(&request)) return exported->model;
+  return std::get<RenderRequest>(request).model;
+}
+
+}  // namespace tranos::model
