@@ -158,7 +158,10 @@ void AddLibraryVerbs(CLI::App* app, Choices* choices, int* status) {
       ->check(Quiet(CLI::Range(0, 1000000)))
       ->capture_default_str();
   verb->add_flag("!--no-corners", soak.corners, "leaves out the ends of the ranges");
-  verb->add_flag("--crossings", soak.crossings, "looks for solids that cross themselves, too");
+  verb->add_flag("--crossings", soak.crossings,
+                 "looks for solids that cross themselves, too, at the defaults");
+  verb->add_flag("--crossings-everywhere", soak.crossings_everywhere,
+                 "and at all other settings, which takes long");
   verb->add_option("--library", soak.folder,
                    "the library's folder, read now; as built, if not given")
       ->type_name("DIR")

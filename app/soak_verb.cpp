@@ -128,8 +128,9 @@ void Do(const ElementLibrary& elements, Job* job, const SoakOptions& options) {
     ++job->settings;
     const auto line = PlacementOf(*job->element, picks, job->detail, &draws);
     const bool crossings_too =
-        options.crossings &&
-        std::all_of(picks.begin(), picks.end(), [](Pick pick) { return pick == Pick::kStandard; });
+        options.crossings_everywhere ||
+        (options.crossings && std::all_of(picks.begin(), picks.end(),
+                                          [](Pick pick) { return pick == Pick::kStandard; }));
     const std::string problem =
         line ? ProblemOf(elements, *job, *line, crossings_too) : line.error() + "\n";
     if (!problem.empty()) job->failures.push_back((line ? *line + "\n" : "") + problem);

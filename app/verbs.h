@@ -72,6 +72,7 @@ struct SoakOptions {
   int settings = 200;      // random ones of each element and detail, besides the defaults
   bool corners = true;     // and the ends of the ranges
   bool crossings = false;  // whether solids at the defaults cross themselves, which takes its time
+  bool crossings_everywhere = false;  // and those at all other settings
   std::uint64_t seed = 1;
 };
 int SoakVerb(const SoakOptions& options);

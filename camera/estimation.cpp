@@ -156,6 +156,12 @@ Determined DeterminedOf(std::span<const Photograph> photographs, std::span<const
   return determined;
 }
 
+void AppendWeaknesses(const Photograph& photograph, const Numbers& numbers, const Camera* camera,
+                      std::vector<std::string>& warnings) {
+  if (camera) WarnOfAngles(*camera, warnings);
+  WarnOfVanishingPoints(photograph, numbers, warnings);
+}
+
 std::vector<Estimate> EstimatesOf(std::span<const Photograph> photographs,
                                   std::span<const Unknown> unknowns, const Layout& layout,
                                   const Refined& refined, const Linearised& at) {
@@ -193,9 +199,9 @@ std::vector<Estimate> EstimatesOf(std::span<const Photograph> photographs,
     const Eigen::VectorXi columns = ColumnsOf(layout, p);
     estimate.covariance = d.covariance(columns, columns);
     estimate.deviations = root(columns, Eigen::all);
-    if (!estimate.parameters[kOmega].free() && !estimate.parameters[kPhi].free())
-      WarnOfAngles(estimate.camera, estimate.warnings);
-    WarnOfVanishingPoints(photographs[p], refined.numbers, estimate.warnings);
+    const bool turned = !estimate.parameters[kOmega].free() && !estimate.parameters[kPhi].free();
+    AppendWeaknesses(photographs[p], refined.numbers, turned ? &estimate.camera : nullptr,
+                     estimate.warnings);
     for (std::size_t i = 0; i < layout.traces.size(); ++i) {
       const TraceRows& rows = layout.traces[i];
       if (rows.photograph != p) continue;

@@ -18,6 +18,12 @@ struct Determined {
 Determined DeterminedOf(std::span<const Photograph>, std::span<const Unknown>, const Layout&,
                         const Refined&, const Linearised&);
 
+// Adds a warning for each tilt or pan of the camera outside 5° to 40°, if its pose is known, and
+// for each axis whose edges are parallel in the picture: where methods by vanishing points are
+// weak.
+void AppendWeaknesses(const Photograph&, const Numbers&, const Camera*,
+                      std::vector<std::string>& warnings);
+
 // An estimate for each photograph, without alternatives, trials and profile; noise as stated.
 std::vector<Estimate> EstimatesOf(std::span<const Photograph>, std::span<const Unknown>,
                                   const Layout&, const Refined&, const Linearised&);

@@ -161,6 +161,15 @@ double Sigma(const Value& number, const SourceList& sources) {
   return FiniteOr(sigma, "the deviation is not a finite number");
 }
 
+double Stated(const Value& number, const SourceList& sources) {
+  double stated = number.number();
+  if (!number.derivatives()) return stated;
+  for (const auto& [source, slope] : number.derivatives()->terms) {
+    if (source < sources.size()) stated -= slope * sources[source].tried;
+  }
+  return stated;
+}
+
 Value PlusMinus(const Value& value, const Value& deviation, bool relative, const Context& context) {
   for (const Value* operand : {&value, &deviation}) {
     if (operand->is_number()) continue;

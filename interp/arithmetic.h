@@ -16,6 +16,7 @@ namespace tranos::interp {
 struct Source {
   double sigma = 0;  // in SI
   std::string name;  // of an unknown, else ""
+  double tried = 0;  // error of a literal that a trial of the adjustment has added to its value
 };
 using SourceList = std::vector<Source>;
 
@@ -34,6 +35,9 @@ model::Value PlusMinus(const model::Value& value, const model::Value& deviation,
                        const Context& context);
 // The standard deviation of a number: 0 for one without sources.
 double Sigma(const model::Value& number, const SourceList& sources);
+// The number as its literals state it: to first order without the errors that a trial of the
+// adjustment has added to them.
+double Stated(const model::Value& number, const SourceList& sources);
 // What carrying the deviation of a number or a point through one operation counts for.
 std::uint64_t DeviationSteps(const model::Value& value);
 // f(x) with its derivative, for functions of one number.

@@ -8,6 +8,7 @@
 
 #include "camera/calibrate.h"
 #include "camera/dlt.h"
+#include "camera/estimation.h"
 #include "camera/orthocentre.h"
 #include "camera/paper_method.h"
 #include "camera/sweep.h"
@@ -119,6 +120,7 @@ geom::Result<std::vector<camera::Estimate>> EstimatesBy(const Method& method, co
                                                std::move(estimate.error())));
     }
     TellOpen(method, traced.photographs[p], numbers, &*estimate);
+    camera::AppendWeaknesses(traced.photographs[p], numbers, &estimate->camera, estimate->warnings);
     estimates.push_back(*std::move(estimate));
   }
   return estimates;
@@ -133,7 +135,7 @@ Fired Machine::Calibrate(const Answers& answers, const model::State& state, Span
     Fail(Code::kNoPhotograph, span, "there is no photograph to calibrate", "",
          "attach photo \"fire_1917.png\" format=40.5mm,26.7mm as fire");
   }
-  const Host silent{host_.read, nullptr, host_.render_photo};
+  const Host silent{.read = host_.read, .render_photo = host_.render_photo};
   Evaluation evaluation(*this, silent, state, traced, span);
   const Method method{answers.Text("method", "likelihood"), RangeOf(answers, span)};
   Eigen::VectorXd start(static_cast<Eigen::Index>(evaluation.unknowns().size()));
@@ -396,6 +398,7 @@ Value Machine::WithError(Value number) {
   if (!trial_) return number;
   const auto error = trial_->values.find(met);
   if (error == trial_->values.end()) return number;
+  sources_.back().tried = error->second;
   return Value::Uncertain({number.number() + error->second, *number.derivatives()},
                           number.dimension());
 }

@@ -63,7 +63,7 @@ class Gathering {
     const auto made = Made(trace);
     out_.number_owners.resize(out_.numbers.size(), id);
     if (!made) return;
-    if (is_first_) out_.noise_px = trace.noise_px;
+    if (is_first_) out_.noise_px = Noise(trace);
     is_first_ = false;
     out_.photographs[place->second].traces.push_back(*made);
     out_.trace_ids[place->second].push_back(id);

@@ -44,7 +44,7 @@ tl::expected<PhotographFile, CommandError> ReadPhotograph(const std::string& fil
   if (!surroundings.host.read) {
     return Fail({.code = Code::kCannotRead, .message = "there are no files to be read here"});
   }
-  const auto bytes = surroundings.host.read(file);
+  auto bytes = surroundings.host.read(file);
   if (!bytes) {
     const bool outside = bytes.error().kind == HostError::kOutside;
     return Fail({.code = outside ? Code::kOutsideSandbox : Code::kCannotRead,
@@ -59,10 +59,11 @@ tl::expected<PhotographFile, CommandError> ReadPhotograph(const std::string& fil
                  .help = "photographs are PNG, JPEG or TIFF",
                  .where = AtKey("file")});
   }
+  const model::Hash128 content = model::Hasher().Text(*bytes).Finish();
   return surroundings.photographs
-      .emplace(file, PhotographFile{model::Hasher().Text(*bytes).Finish(),
+      .emplace(file, PhotographFile{content,
                                     {size->width_px, size->height_px},
-                                    std::make_shared<const camera::PhotoFile>(*bytes)})
+                                    std::make_shared<const camera::PhotoFile>(*std::move(bytes))})
       .first->second;
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "interp/arithmetic.h"
 #include "interp/commands/families.h"
@@ -48,7 +49,9 @@ std::optional<CommandError> SetPrincipal(const Value& value, const Surroundings&
                                          model::Photograph* photograph) {
   const camera::Frame& frame = photograph->frame;
   camera::Prior* const priors = photograph->priors + camera::kPrincipalX;
-  if (value.is_number() && value.dimension().plain() && value.number() == 1) {
+  // `centre` is the number 1.
+  if (value.is_number() && value.dimension().plain() &&
+      std::abs(Stated(value, surroundings.sources) - 1) < 1e-12) {
     const double share = Sigma(value, surroundings.sources);
     if (auto error = NoDeviation("principal", value, share)) return error;
     for (int i = 0; i < 2; ++i) priors[i] = {0, share * frame.size_mm[i]};

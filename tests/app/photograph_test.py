@@ -50,6 +50,15 @@ class Photograph(harness.ProgramTest):
         printed = self.run_script(text + "\nreport camera hall\n").out
         self.assertRegex(printed, r"prior α 89 ± 1°, priors are \d+ % of the result")
 
+    def test_estimated_noise_is_told(self):
+        """What is left over, in pixels, for each degree of freedom."""
+        shifted = SCRIPT.replace(",965.368611432", ",966.068611432", 1).split("assert")[0]
+        shifted = shifted.replace("7m +- 20%", "7m in 1m..20m", 1)
+        stated = self.camera("noise=1px\n" + shifted)
+        camera = self.camera("noise=estimated\n" + shifted)
+        self.assertTrue(camera["noise_is_estimated"])
+        self.assertAlmostEqual(camera["noise_px"], (stated["chi2"] / stated["dof"]) ** 0.5, places=4)
+
     def test_what_is_not_determined_gets_no_number(self):
         text = (GOLDENS / "a_facade_alone_leaves_the_camera_open.trn").read_text(encoding="utf-8")
         camera = self.camera(text)

@@ -24,7 +24,7 @@ tl::expected<std::string, HostError> ReadExampleFile(std::string_view path) {
 }
 
 ScriptResult RunExample(const std::string& text) {
-  return RunScript("example.trn", text, {}, {}, {ReadExampleFile, [](std::string_view) {}, {}});
+  return RunScript("example.trn", text, {}, {}, {ReadExampleFile, [](std::string_view) {}});
 }
 
 std::string Rendered(const ScriptResult& result) {

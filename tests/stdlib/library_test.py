@@ -196,9 +196,9 @@ class Gallery(harness.ProgramTest):
         for element in page.read_text().split("![place ")[1:]:  # the pictures that were not asked for
             picture = self.folder / "here" / element.split("](")[1].split(")")[0]
             picture.touch()
-        self.assertEqual(self.tranos("gallery", "-o", "here", "--check").status, 0)
+        self.assertEqual(self.tranos("gallery", "-o", "here", "--check", timeout=300).status, 0)
         page.write_text(page.read_text().replace("side of", "length of"))
-        self.assertEqual(self.tranos("gallery", "-o", "here", "--check").status, 1)
+        self.assertEqual(self.tranos("gallery", "-o", "here", "--check", timeout=300).status, 1)
 
 
 if __name__ == "__main__":
