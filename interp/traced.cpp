@@ -24,8 +24,8 @@ class Gathering {
   Gathering(const model::State& state, ElementId only) : state_(state) {
     ForEachPart([&](const ElementPtr& element) {
       const auto* photograph = std::get_if<model::PhotographPtr>(&element->geometry);
-      const bool meant = only == model::kNoElement ? photograph && (*photograph)->attached
-                                                   : element->id == only;
+      const bool meant =
+          only == model::kNoElement ? photograph && (*photograph)->attached : element->id == only;
       if (photograph && meant) Add(*element, **photograph);
     });
     ForEachPart([&](const ElementPtr& element) {

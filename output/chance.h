@@ -8,7 +8,7 @@
 
 namespace tranos::output {
 
-// Bits that look random, of these four numbers (SplitMix64's finalizer, once for each).
+// Bits that look random, of these four numbers (SplitMix64's finalizer, twice).
 std::uint64_t Hashed(std::uint64_t seed, std::uint64_t a, std::uint64_t b = 0, std::uint64_t c = 0);
 
 // Uniform in [0, 1).

@@ -20,8 +20,8 @@ using Eigen::Vector3f;
 using geom::Vec2;
 using geom::Vec3;
 
-constexpr float kSun = 2.3f;          // the light of the sun on a face turned to it
-constexpr float kSky = 0.85f;         // that of the whole sky on a face turned up
+constexpr float kSun = 1.4f;          // the light of the sun on a face turned to it
+constexpr float kSky = 0.5f;          // that of the whole sky on a face turned up
 constexpr float kBounce = 0.26f;      // of the sky's, what comes from other faces instead
 constexpr float kSunRadius = 0.008f;  // softens the edges of shadows; in radians
 constexpr float kHaze_m = 2500;       // after which a face has lost two thirds of its contrast
@@ -29,6 +29,8 @@ constexpr double kNearest_m = 0.5;    // facets are as fine as a pixel at this d
 constexpr float kOffset = 2e-4f;      // of the distance: where rays from a face begin
 constexpr int kBlock = 4;             // a packet is a square of samples
 constexpr int kBand_px = 16;          // rows of pixels that are made at a time
+constexpr int kMeterStep_px = 8;      // one pixel in so many, each way, is metered
+constexpr float kExposedTo = 0.75f;   // the light that the brighter parts of a building get
 
 float Linear(std::uint8_t srgb) {
   const float s = static_cast<float>(srgb) / 255;
@@ -264,6 +266,14 @@ int SamplesASide(const Eigen::Vector2i& size_px) {
   return pixels <= 400'000 ? 4 : 2;
 }
 
+// The characteristic curve of plate and paper together: toe, straight part, shoulder.
+float Developed(float light) {
+  constexpr float kContrast = 1.45f, kMiddle = 0.40f;
+  const float powered = std::pow(std::max(light, 0.0f), kContrast);
+  static const float middle = std::pow(kMiddle, kContrast);
+  return std::min(1.0f, 1.16f * powered / (powered + middle));
+}
+
 // What is needed to expose a packet of samples.
 struct Ingredients {
   const model::PhotoRequest& request;
@@ -290,24 +300,43 @@ struct Ingredients {
     }
     return all;
   }
-  // Exposes rows of pixels; as Aim.
-  bool Band(int top, int bottom, Exposure& exposure, Brightness& brightness) const {
-    const int block_px = kBlock / side;
-    bool all = true;
+  bool Gather(int x, int y, Light::Samples& samples) const {
     RayPacket towards;
+    const bool all = Aim(x, y, towards);
+    light.Gather(
+        eye, towards, pixel_rad,
+        Hashed(request.seed, 7, static_cast<std::uint64_t>(x), static_cast<std::uint64_t>(y)),
+        samples);
+    return all;
+  }
+  // Measures some pixels of these rows.
+  void Meter(int top, int bottom, Brightness& brightness) const {
+    Light::Samples samples;
+    for (int y = top; y < bottom; y += kMeterStep_px) {
+      for (int x = 0; x < request.frame.size_px.x(); x += kMeterStep_px) {
+        Gather(x, y, samples);
+        for (const Light::Sample& sample : samples) {
+          if (sample.is_built) brightness.Add(sample.light);
+        }
+      }
+    }
+  }
+  // Exposes rows of pixels; as Aim.
+  bool Band(int top, int bottom, float exposed, Tones& tones) const {
+    const int block_px = kBlock / side;
+    const auto vignette = static_cast<float>(request.effects.vignette);
+    bool all = true;
     Light::Samples samples;
     for (int y0 = top; y0 < bottom; y0 += block_px) {
-      for (int x0 = 0; x0 < exposure.width_px; x0 += block_px) {
-        all = Aim(x0, y0, towards) && all;
-        light.Gather(
-            eye, towards, pixel_rad,
-            Hashed(request.seed, 7, static_cast<std::uint64_t>(x0), static_cast<std::uint64_t>(y0)),
-            samples);
+      for (int x0 = 0; x0 < tones.width_px; x0 += block_px) {
+        all = Gather(x0, y0, samples) && all;
         for (int i = 0; i < kPacket; ++i) {
           const int x = x0 + i % kBlock / side, y = y0 + i / kBlock / side;
-          if (x >= exposure.width_px || y >= bottom) continue;
-          exposure.At(x, y) += samples[i].light / static_cast<float>(side * side);
-          if (samples[i].is_built) brightness.Add(samples[i].light);
+          if (x >= tones.width_px || y >= bottom) continue;
+          const float out = Outward(x, y, tones.width_px, tones.height_px);
+          const float falloff = 1 - 0.85f * vignette * out * out * std::sqrt(out);
+          tones.At(x, y) +=
+              Developed(samples[i].light * exposed * falloff) / static_cast<float>(side * side);
         }
       }
     }
@@ -317,7 +346,13 @@ struct Ingredients {
 
 }  // namespace
 
-Result<Exposure> Expose(const model::PhotoRequest& request, int threads) {
+float Outward(int x, int y, int width_px, int height_px) {
+  const float u = 2 * (static_cast<float>(x) + 0.5f) / static_cast<float>(width_px) - 1;
+  const float v = 2 * (static_cast<float>(y) + 0.5f) / static_cast<float>(height_px) - 1;
+  return std::sqrt(0.5f * (u * u + v * v));
+}
+
+Result<Tones> Expose(const model::PhotoRequest& request, int threads) {
   const Result<World> world = WorldOf(request, threads);
   if (!world) return tl::unexpected(world.error());
   const Result<RayScene> rays = RayScene::Of(world->surfaces);
@@ -332,21 +367,27 @@ Result<Exposure> Expose(const model::PhotoRequest& request, int threads) {
       (request.camera.position_m() - world->origin).cast<float>(),
       static_cast<float>(request.frame.pitch_mm().mean() / request.camera[camera::kFocal]),
       SamplesASide(size_px)};
-  Exposure exposure{size_px.x(), size_px.y(), {}};
-  exposure.light.resize(static_cast<std::size_t>(size_px.x()) * size_px.y());
+  const auto for_bands = [&](auto&& make) {
+    const int bands = (size_px.y() + kBand_px - 1) / kBand_px;
+    ParallelFor(static_cast<std::size_t>(bands), threads, [&](std::size_t band) {
+      const int top = static_cast<int>(band) * kBand_px;
+      make(top, std::min(top + kBand_px, size_px.y()));
+    });
+  };
   Brightness brightness;
+  for_bands([&](int top, int bottom) { ingredients.Meter(top, bottom, brightness); });
+  const float upper = brightness.Upper();
+  const float exposed = upper > 0 ? kExposedTo / upper : 1;
+  Tones tones{size_px.x(), size_px.y(), {}};
+  tones.values.resize(static_cast<std::size_t>(size_px.x()) * size_px.y());
   std::atomic<bool> folds = false;
-  const int bands = (size_px.y() + kBand_px - 1) / kBand_px;
-  ParallelFor(static_cast<std::size_t>(bands), threads, [&](std::size_t band) {
-    const int top = static_cast<int>(band) * kBand_px;
-    const int bottom = std::min(top + kBand_px, size_px.y());
-    if (!ingredients.Band(top, bottom, exposure, brightness)) folds = true;
+  for_bands([&](int top, int bottom) {
+    if (!ingredients.Band(top, bottom, exposed, tones)) folds = true;
   });
   if (folds) {
     return tl::unexpected(Error{"the lens's distortion would fold the picture over at its edge"});
   }
-  exposure.building = brightness.Upper();
-  return exposure;
+  return tones;
 }
 
 }  // namespace tranos::output

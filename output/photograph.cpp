@@ -6,9 +6,9 @@
 namespace tranos::output {
 
 Result<camera::Photo> TakePhotograph(const model::PhotoRequest& request, int threads) {
-  Result<Exposure> exposure = Expose(request, threads);
-  if (!exposure) return tl::unexpected(exposure.error());
-  return PrintOf(*std::move(exposure), request, threads);
+  Result<Tones> plate = Expose(request, threads);
+  if (!plate) return tl::unexpected(plate.error());
+  return PrintOf(*std::move(plate), request, threads);
 }
 
 }  // namespace tranos::output

@@ -56,23 +56,23 @@ void Soften(std::vector<float>& values, int width, int height, float sigma_px, i
 }
 
 // Light that goes through the emulsion comes back from the glass behind it, around what is bright.
-void Glow(Exposure& exposure, int threads) {
+void Glow(Tones& tones, int threads) {
   // On a quarter of the pixels in each direction: it is soft.
-  const int w = (exposure.width_px + 3) / 4, h = (exposure.height_px + 3) / 4;
+  const int w = (tones.width_px + 3) / 4, h = (tones.height_px + 3) / 4;
   std::vector<float> bright(static_cast<std::size_t>(w) * h);
   ForRows(h, threads, [&](int y) {
     for (int x = 0; x < w; ++x) {
       float sum = 0;
       for (int k = 0; k < 16; ++k) {
-        sum += exposure.At(std::min(4 * x + k % 4, exposure.width_px - 1),
-                           std::min(4 * y + k / 4, exposure.height_px - 1));
+        sum += tones.At(std::min(4 * x + k % 4, tones.width_px - 1),
+                        std::min(4 * y + k / 4, tones.height_px - 1));
       }
       bright[static_cast<std::size_t>(y) * w + x] = sum / 16;
     }
   });
   Soften(bright, w, h, std::max(1.0f, static_cast<float>(w) / 60), threads);
-  ForRows(exposure.height_px, threads, [&](int y) {
-    for (int x = 0; x < exposure.width_px; ++x) {
+  ForRows(tones.height_px, threads, [&](int y) {
+    for (int x = 0; x < tones.width_px; ++x) {
       const float fx =
           std::clamp((static_cast<float>(x) - 1.5f) / 4, 0.0f, static_cast<float>(w - 1));
       const float fy =
@@ -85,45 +85,12 @@ void Glow(Exposure& exposure, int threads) {
       };
       const float glow = (1 - v) * ((1 - u) * at(i, k) + u * at(i + 1, k)) +
                          v * ((1 - u) * at(i, k + 1) + u * at(i + 1, k + 1));
-      exposure.At(x, y) = 0.94f * exposure.At(x, y) + 0.06f * glow;
+      tones.At(x, y) = 0.94f * tones.At(x, y) + 0.06f * glow;
     }
   });
 }
 
-// Distance from the middle; 1 in the corners.
-float Outward(int x, int y, int width, int height) {
-  const float u = 2 * (static_cast<float>(x) + 0.5f) / static_cast<float>(width) - 1;
-  const float v = 2 * (static_cast<float>(y) + 0.5f) / static_cast<float>(height) - 1;
-  return std::sqrt(0.5f * (u * u + v * v));
-}
-
-// The characteristic curve of plate and paper together: toe, straight part, shoulder.
-float Developed(float light) {
-  constexpr float kContrast = 1.45f, kMiddle = 0.40f;
-  const float powered = std::pow(std::max(light, 0.0f), kContrast);
-  const float middle = std::pow(kMiddle, kContrast);
-  return std::min(1.0f, 1.16f * powered / (powered + middle));
-}
-
-Tones Develop(Exposure& exposure, const model::PrintEffects& effects, int threads) {
-  const int width = exposure.width_px, height = exposure.height_px;
-  const float wider = static_cast<float>(width) / kUsualWidth_px;
-  Soften(exposure.light, width, height, 0.35f + 0.2f * std::min(wider, 6.0f), threads);
-  Glow(exposure, threads);
-  const float metered = exposure.building > 0 ? 0.75f / exposure.building : 1;
-  Tones tones{width, height, std::vector<float>(exposure.light.size())};
-  ForRows(height, threads, [&](int y) {
-    for (int x = 0; x < width; ++x) {
-      const float out = Outward(x, y, width, height);
-      const float falloff = 1 - static_cast<float>(effects.vignette) * 0.85f * std::pow(out, 2.6f);
-      // The sky is beyond what paper shows, whatever the building's light.
-      tones.At(x, y) = Developed(exposure.At(x, y) * metered * falloff);
-    }
-  });
-  return tones;
-}
-
-// Clumps of silver, seen most in middle tones; two sizes of them.
+// Clumps of silver, seen most in middle tones.
 void AddGrain(Tones& tones, double strength, std::uint64_t seed, int threads) {
   if (!(strength > 0)) return;
   std::vector<float> grain(tones.values.size());
@@ -133,7 +100,7 @@ void AddGrain(Tones& tones, double strength, std::uint64_t seed, int threads) {
       grain[static_cast<std::size_t>(y) * tones.width_px + x] = draws.Normal();
     }
   });
-  const float size_px = std::max(0.5f, 0.5f * static_cast<float>(tones.width_px) / kUsualWidth_px);
+  const float size_px = std::max(0.5f, 0.3f * static_cast<float>(tones.width_px) / kUsualWidth_px);
   Soften(grain, tones.width_px, tones.height_px, size_px, threads);
   // A Gaussian of σ leaves 1/(2 σ √π) of the deviation of white noise.
   const float scale = 3.545f * size_px * 0.11f * static_cast<float>(strength);
@@ -150,7 +117,7 @@ struct Colours {
   Vector3f shadow, middle, paper, stain;
 };
 Colours ColoursOf(model::PrintTone tone) {
-  const auto rgb = [](int r, int g, int b) {
+  const auto rgb = [](int r, int g, int b) -> Vector3f {
     return Vector3f(static_cast<float>(r), static_cast<float>(g), static_cast<float>(b)) / 255;
   };
   if (tone == model::PrintTone::kGrey) {
@@ -177,11 +144,13 @@ float Fibres(std::uint64_t seed, float x, float y, float width_px) {
 
 }  // namespace
 
-camera::Photo PrintOf(Exposure exposure, const model::PhotoRequest& request, int threads) {
+camera::Photo PrintOf(Tones tones, const model::PhotoRequest& request, int threads) {
   const model::PrintEffects& effects = request.effects;
   const std::uint64_t seed = request.seed;
-  Tones tones = Develop(exposure, effects, threads);
-  exposure.light = {};
+  const float wider = static_cast<float>(tones.width_px) / kUsualWidth_px;
+  Soften(tones.values, tones.width_px, tones.height_px, 0.35f + 0.2f * std::min(wider, 6.0f),
+         threads);
+  Glow(tones, threads);
   AddGrain(tones, effects.grain, seed, threads);
   const int width = tones.width_px, height = tones.height_px;
   const Damage damage = DamageOf(effects, seed, width, height);

@@ -137,6 +137,35 @@ class Photograph(harness.ProgramTest):
         told = self.compared(SCRIPT, SCRIPT.replace("unknown", "prior aspect = 1 +- 3%\nunknown", 1))
         self.assertNotRegex(told, r"e-1\d mm")
 
+    def test_photograph_of_the_model(self):
+        """The picture, the truth beside it, and a journal that needs neither."""
+        text = (GOLDENS / "a_photograph_of_the_model_is_attached.trn").read_text(encoding="utf-8")
+        text = text.replace("seed=7", 'seed=7 file="old/p.png"')
+        ran = self.run_script(text, "--journal", "journal.jsonl", "--threads", "1")
+        self.assertEqual(ran.status, 0, ran.err)
+        picture = (self.folder / "out/old/p.png").read_bytes()
+        truth = json.loads((self.folder / "out/old/p.json").read_text())
+        self.assertEqual(struct.unpack(">II", picture[16:24]), (484, 319))
+        self.assertEqual(truth["camera"]["photograph"], "old/p.png")
+        self.assertEqual([truth["camera"][name] for name in ["f_mm", "skew_deg"]], [33.33, 88])
+        self.assertEqual(truth["effects"]["grain"], 0.4)
+        self.assertEqual(truth["seed"], 7)
+        again = self.run_script(text, "--threads", "3")
+        self.assertEqual(again.status, 0, again.err)
+        self.assertEqual(picture, (self.folder / "out/old/p.png").read_bytes())
+        replayed = self.tranos("replay", "journal.jsonl")
+        self.assertEqual(replayed.status, 0, replayed.err)
+        # What was written is a photograph like any other.
+        shutil.copy(self.folder / "out/old/p.png", self.folder / "p.png")
+        read = self.run_script('attach photo "p.png" format=40.5mm,26.7mm as p\nassert p.width == 484px\n')
+        self.assertEqual(read.status, 0, read.err)
+
+    def test_folded_photograph_is_refused(self):
+        ran = self.run_script("place camera f=35mm format=36mm,24mm size=48,32 xy=0,-20,2 as paper\n"
+                              "render photo camera=paper distortion=[-0.3, -0.3] as p\n")
+        self.assertEqual(ran.codes(), ["E0901"])
+        self.assertIn("fold", ran.err)
+
     def test_runs_the_same_from_another_folder(self):
         first = self.report_of(SCRIPT, "--no-output")
         self.write("deep/er/script.trn", SCRIPT)
