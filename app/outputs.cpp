@@ -2,9 +2,11 @@
 #include "app/outputs.h"
 
 #include <algorithm>
+#include <map>
 #include <new>
 
 #include "app/photo_truth.h"
+#include "output/camera_files.h"
 #include "output/png.h"
 #include "output/write.h"
 
@@ -21,7 +23,7 @@ constexpr Span kNoPlace{UINT32_MAX, 0, 0};
 
 struct Request {
   model::OutputRequest what;
-  std::string path;  // below the output folder
+  std::string path;  // below the output folder; of several files the first's, or their folder
   Span span;
   std::string label = {};
 };
@@ -50,50 +52,82 @@ std::vector<Request> RequestsOf(const interp::ScriptResult& result, const std::s
   int picture = 0;
   for (std::size_t i = 0; i < outcome.outputs.size(); ++i) {
     const model::OutputRequest& what = outcome.outputs[i];
+    const auto* render = std::get_if<model::RenderRequest>(&what);
     std::string path = std::visit([](const auto& request) { return request.file; }, what);
-    if (std::holds_alternative<model::RenderRequest>(what) && path.empty()) {
-      path = stem + "-" + std::to_string(++picture) + ".png";
-    }
+    if (render && path.empty()) path = stem + "-" + std::to_string(++picture) + ".png";
     add(what, std::move(path), outcome.output_spans[i]);
   }
   return all;
 }
 
-// One function for each kind of output: its bytes.
+using Files = std::vector<output::NamedFile>;
+
+// "old/p.png" → "old/p.json"
+std::string TruthPath(const std::string& picture) {
+  return picture.substr(0, picture.rfind('.')) + ".json";
+}
+
+// One function for each kind of output: what it writes.
 struct Maker {
+  const std::string& path;
   int threads;
 
-  output::Result<std::string> operator()(const model::ExportRequest& request) const {
-    return output::ExportOf(request.model, request.file);
+  output::Result<Files> operator()(const model::ExportRequest& request) const {
+    return One(output::ExportOf(request.model, request.file));
   }
-  output::Result<std::string> operator()(const model::RenderRequest& request) const {
-    return output::PictureFileOf(request, threads);
+  output::Result<Files> operator()(const model::RenderRequest& request) const {
+    return One(output::PictureFileOf(request, threads));
   }
-  output::Result<std::string> operator()(const model::PhotoFileRequest& request) const {
-    if (request.file.ends_with(".json")) {
-      const std::string stem = request.file.substr(0, request.file.size() - 5);
-      return PhotoTruthJson(*request.taken_as, stem + ".png");
+  output::Result<Files> operator()(const model::CameraRequest& request) const {
+    return output::CameraFilesOf(request);
+  }
+  output::Result<Files> operator()(const model::PhotoFileRequest& request) const {
+    const camera::Photo& photo = *request.pixels;
+    auto files = One(output::PngOf({photo.width_px, photo.height_px, photo.rgb}));
+    if (files) {
+      files->push_back({TruthPath(path), PhotoTruthJson(*request.taken_as, path)});
     }
-    return output::PngOf(
-        {request.pixels->width_px, request.pixels->height_px, request.pixels->rgb});
+    return files;
+  }
+
+  output::Result<Files> One(output::Result<std::string> bytes) const {
+    if (!bytes) return tl::unexpected(bytes.error());
+    return Files{{path, std::move(*bytes)}};
   }
 };
 
-tl::expected<std::string, Diagnostic> BytesOf(const Request& request, int threads) {
-  const auto refused = [&](Code code, std::string why, std::string help) {
-    return tl::unexpected(Diagnostic{code, request.span,
-                                     "`" + request.path + "` cannot be made: " + std::move(why),
-                                     request.label, std::move(help)});
-  };
+Diagnostic Refused(const Request& request, Code code, const std::string& why, std::string help) {
+  return {code, request.span, "`" + request.path + "` cannot be made: " + why, request.label,
+          std::move(help)};
+}
+
+tl::expected<Files, Diagnostic> MadeBy(const Request& request, int threads) {
   try {
-    auto bytes = std::visit(Maker{threads}, request.what);
-    if (bytes) return std::move(*bytes);
-    return refused(Code::kTooManyFacets, bytes.error().message,
-                   "a larger `tol` or a smaller `fn` gives fewer facets");
+    auto files = std::visit(Maker{request.path, threads}, request.what);
+    if (files) return std::move(*files);
+    const bool is_camera = std::holds_alternative<model::CameraRequest>(request.what);
+    return tl::unexpected(Refused(
+        request, is_camera ? Code::kOutOfRange : Code::kTooManyFacets, files.error().message,
+        is_camera ? "export exact \"camera.json\" keeps it as it is"
+                  : "a larger `tol` or a smaller `fn` gives fewer facets"));
   } catch (const std::bad_alloc&) {
-    return refused(Code::kMemoryLimit, "it takes more memory than the limit",
-                   "--limit memory=N raises it");
+    return tl::unexpected(Refused(request, Code::kMemoryLimit,
+                                  "it takes more memory than the limit",
+                                  "--limit memory=N raises it"));
   }
+}
+
+// All that it writes, before any of it is made.
+tl::expected<std::vector<std::string>, Diagnostic> PathsOf(const Request& request) {
+  if (std::holds_alternative<model::PhotoFileRequest>(request.what)) {
+    return std::vector{request.path, TruthPath(request.path)};
+  }
+  const auto* camera = std::get_if<model::CameraRequest>(&request.what);
+  if (!camera) return std::vector{request.path};
+  auto paths = output::CameraPathsOf(*camera);
+  if (paths) return std::move(*paths);
+  return tl::unexpected(Refused(request, Code::kOutOfRange, paths.error().message,
+                                "export exact \"camera.json\" keeps it as it is"));
 }
 
 Diagnostic FromHost(const interp::HostError& error, const std::string& path, Span span,
@@ -121,21 +155,36 @@ Written WriteOutputs(const ScriptRun& run, const RunVerbOptions& options, Progre
   if (!writer) return Failed(FromHost(writer.error(), options.output, kNoPlace));
   // Refusals come before long work.
   for (const Request& request : requests) {
-    if (const auto free = writer->Check(request.path); !free) {
-      return Failed(FromHost(free.error(), request.path, request.span, request.label));
+    const auto paths = PathsOf(request);
+    if (!paths) return Failed(paths.error());
+    for (const std::string& path : *paths) {
+      if (const auto free = writer->Check(path); !free) {
+        return Failed(FromHost(free.error(), path, request.span, request.label));
+      }
     }
   }
   Written written;
+  std::map<std::string, model::Hash128> contents;  // two cameras may share a picture
   for (std::size_t i = 0; i < requests.size(); ++i) {
     const Request& request = requests[i];
     progress->Tell("writing " + interp::Printable(request.path) + ", " + std::to_string(i + 1) +
                    " of " + std::to_string(requests.size()));
-    const auto bytes = BytesOf(request, threads);
-    if (!bytes) return Failed(bytes.error());
-    if (const auto put = writer->Write(request.path, *bytes); !put) {
-      return Failed(FromHost(put.error(), request.path, request.span, request.label));
+    const auto files = MadeBy(request, threads);
+    if (!files) return Failed(files.error());
+    for (const auto& [path, bytes] : *files) {
+      const model::Hash128 content = model::Hasher().Text(bytes).Finish();
+      const auto [known, is_new] = contents.emplace(path, content);
+      if (!is_new && known->second == content) continue;
+      if (!is_new) {
+        return Failed({Code::kProtectedFile, request.span,
+                       "`" + path + "` would be written twice, and differently", request.label,
+                       "give one of the exports another name"});
+      }
+      if (const auto put = writer->Write(path, bytes); !put) {
+        return Failed(FromHost(put.error(), path, request.span, request.label));
+      }
+      written.files.push_back({options.output + "/" + path, bytes.size()});
     }
-    written.files.push_back({options.output + "/" + request.path, bytes->size()});
   }
   if (const auto placed = writer->PutInPlace(); !placed) {
     return Failed(FromHost(placed.error(), options.output, kNoPlace));

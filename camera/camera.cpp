@@ -25,10 +25,11 @@ ProjectionMatrix DotFromWorld(const Camera& camera, const Frame& frame) {
 
 Camera CameraOf(const Mat3& k, const Mat3& r, const Vec3& position_m) {
   // The third row of R is (−cos ω sin φ, cos ω cos φ, sin ω).
-  const double omega = std::asin(std::clamp(r(2, 2), -1.0, 1.0));
+  const double omega = std::atan2(r(2, 2), std::hypot(r(2, 0), r(2, 1)));
   const double phi = std::atan2(-r(2, 0), r(2, 1));
-  // The third column is (sin κ cos ω, −cos κ cos ω, sin ω).
-  const double kappa = std::atan2(r(0, 2), -r(1, 2));
+  // R takes (cos φ, sin φ, 0) to (cos κ, sin κ, 0): also where ω is 90° and φ may be any angle.
+  const Vec3 level = r * Vec3(std::cos(phi), std::sin(phi), 0);
+  const double kappa = std::atan2(level.y(), level.x());
   Camera camera;
   camera.parameters << k(0, 0), k(1, 1) / k(0, 0), k(0, 2), k(1, 2), std::atan2(k(0, 0), k(0, 1)),
       omega, phi, kappa, position_m;

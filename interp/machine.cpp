@@ -103,7 +103,7 @@ Outcome Machine::Run() {
 void Machine::EvaluateSolids(const model::Model& last) const {
   const auto force = [&](const model::ElementPtr& element) { solids_.Force(*element, {}); };
   for (const model::OutputRequest& output : outcome_.outputs) {
-    model::ModelOf(output).ForEach(force);
+    if (const model::Model* shown = model::ModelOf(output)) shown->ForEach(force);
   }
   last.ForEach(force);
 }

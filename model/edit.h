@@ -22,16 +22,30 @@ struct ExportRequest {
   Model model;
   std::string file;  // its extension chooses the format
 };
-// A photograph that has been taken; the extension chooses between the picture and how it came to
-// be.
+// A photograph that has been taken, and beside it, as JSON, how it came to be.
 struct PhotoFileRequest {
   std::shared_ptr<const PhotoRequest> taken_as;
   camera::PhotoPtr pixels;
   std::string file;
 };
-using OutputRequest = std::variant<RenderRequest, ExportRequest, PhotoFileRequest>;
-// The model that it shows or tells of.
-const Model& ModelOf(const OutputRequest& request);
+// How other programs keep a camera.
+enum class CameraFormat : std::uint8_t {
+  kFspyProject,
+  kFspyJson,
+  kOpenCv,
+  kColmap,
+  kBlender,
+  kExact
+};
+struct CameraRequest {
+  ElementPtr photograph;     // with a camera that is determined
+  camera::PhotoPtr picture;  // what is seen on it; null for a stated camera
+  CameraFormat format;
+  std::string file;  // of COLMAP a folder
+};
+using OutputRequest = std::variant<RenderRequest, ExportRequest, CameraRequest, PhotoFileRequest>;
+// The model that it shows or tells of; null if it is of none.
+const Model* ModelOf(const OutputRequest& request);
 
 struct Edit {
   std::vector<ElementPtr> added;     // Apply gives them their ids, in order

@@ -24,10 +24,14 @@ Hash128 HashOf(const PhotoRequest& request) {
   return hasher.Finish();
 }
 
-const Model& ModelOf(const OutputRequest& request) {
-  if (const auto* photo = std::get_if<PhotoFileRequest>(&request)) return photo->taken_as->model;
-  if (const auto* exported = std::get_if<ExportRequest>(&request)) return exported->model;
-  return std::get<RenderRequest>(request).model;
+const Model* ModelOf(const OutputRequest& request) {
+  struct {
+    const Model* operator()(const RenderRequest& render) const { return &render.model; }
+    const Model* operator()(const ExportRequest& exported) const { return &exported.model; }
+    const Model* operator()(const PhotoFileRequest& photo) const { return &photo.taken_as->model; }
+    const Model* operator()(const CameraRequest&) const { return nullptr; }
+  } model_of;
+  return std::visit(model_of, request);
 }
 
 }  // namespace tranos::model

@@ -6,6 +6,7 @@
 
 #include "interp/commands/families.h"
 #include "interp/commands/firing.h"
+#include "interp/commands/photographs.h"
 
 namespace tranos::interp {
 
@@ -66,7 +67,55 @@ CommandResult Render(const State& state, const Answers& answers) {
   return fired;
 }
 
-CommandResult Export(const State& state, const Answers& answers) {
+// How a camera is kept by a file's ending; of one ending the first unless a word says another.
+struct CameraFile {
+  std::string_view extension, word;
+  model::CameraFormat format;
+};
+constexpr CameraFile kCameraFiles[] = {{"fspy", "fspy", model::CameraFormat::kFspyProject},
+                                       {"json", "fspy", model::CameraFormat::kFspyJson},
+                                       {"json", "exact", model::CameraFormat::kExact},
+                                       {"yaml", "opencv", model::CameraFormat::kOpenCv},
+                                       {"yml", "opencv", model::CameraFormat::kOpenCv},
+                                       {"py", "blender", model::CameraFormat::kBlender}};
+
+std::optional<model::CameraFormat> CameraFormatOf(const std::string& extension,
+                                                  const Answers& answers) {
+  if (answers.HasWord("colmap")) return model::CameraFormat::kColmap;
+  for (const CameraFile& row : kCameraFiles) {
+    if (row.extension != extension) continue;
+    if (answers.words.empty() || answers.HasWord(row.word)) return row.format;
+  }
+  return std::nullopt;
+}
+
+CommandResult ExportCamera(const State& state, const Answers& answers, model::CameraFormat format) {
+  const auto found = PhotographAt(state, answers, "camera");
+  if (!found) return Fail(found.error());
+  const model::Photograph& photograph = PhotographOf(**found);
+  if (!photograph.estimate || !photograph.estimate->determined()) return Fail(NoCameraYet(**found));
+  model::CameraRequest request{*found, nullptr, format, answers.Text("file")};
+  const bool is_stated = model::IsStatedCamera(photograph);
+  if (is_stated && format == model::CameraFormat::kFspyProject) {
+    return Fail({.code = Code::kNoPhotograph,
+                 .message = fmt::format("an fSpy project holds a photograph, and {} was stated "
+                                        "without one",
+                                        NameForMessage(**found)),
+                 .help = "export \"camera.json\" gives fSpy's camera alone",
+                 .where = AtKey("file")});
+  }
+  if (!is_stated && format != model::CameraFormat::kExact) {
+    const auto pixels = PixelsOf(**found);
+    // A replay, which has no pixels, makes no pictures either.
+    if (!pixels && pixels.error().code != Code::kCannotRead) return Fail(pixels.error());
+    if (pixels) request.picture = *pixels;
+  }
+  Fired fired;
+  fired.edit.outputs.emplace_back(std::move(request));
+  return fired;
+}
+
+CommandResult Export(const State& state, const Answers& answers, const Surroundings&) {
   const std::string file = answers.Text("file");
   if (file.empty()) {
     return Fail({.code = Code::kMissingValue,
@@ -74,7 +123,21 @@ CommandResult Export(const State& state, const Answers& answers) {
                  .help = "export \"church.glb\""});
   }
   const std::string extension = Extension(file);
-  if (extension != "glb" && extension != "stl") return Fail(UnknownFormat(file, "glb, stl"));
+  if (const auto format = CameraFormatOf(extension, answers)) {
+    return ExportCamera(state, answers, *format);
+  }
+  if (!answers.words.empty() || (extension != "glb" && extension != "stl")) {
+    return Fail(UnknownFormat(file,
+                              "glb, stl; of a camera fspy, json (`fspy` or `exact`), yaml, "
+                              "py, or a folder with `colmap`"));
+  }
+  if (answers.Has("camera")) {
+    return Fail({.code = Code::kUnknownFormat,
+                 .message = fmt::format("`{}` holds the model, and `camera=` asks for a camera",
+                                        Printable(file)),
+                 .help = "export \"fire.fspy\" camera=fire",
+                 .where = AtKey("camera")});
+  }
   Fired fired;
   fired.edit.outputs.emplace_back(model::ExportRequest{state.model, file});
   return fired;
@@ -94,7 +157,9 @@ CommandResult Print(const State&, const Answers& answers) {
 constexpr Key kRenderKeys[] = {
     {"file", Type::kString, "the picture's name; numbered pictures without"},
     {"size", Type::kSize, "width and height in pixels", {}, "1280,960"}};
-constexpr Key kExportKeys[] = {{"file", Type::kString, "the file's name", {}, {}, -1, true}};
+constexpr Key kExportKeys[] = {
+    {"file", Type::kString, "the file's name", {}, {}, -1, true},
+    {"camera", Type::kElement, "the photograph or camera; the one last attached or set without"}};
 constexpr Key kPrintKeys[] = {{"text", Type::kString, "what to print", {}, {}, -1, true}};
 
 constexpr Example kRenderExamples[] = {
@@ -103,10 +168,24 @@ constexpr Example kRenderExamples[] = {
 constexpr Example kRenderAllExamples[] = {{"place line xy=0,0,0 dl=3; render all", "true"},
                                           {"render all size=640,480", "true"},
                                           {"render all size=0,480", "E0212"}};
+#define TRANOS_CAMERA                                                        \
+  "place camera f=35mm format=36mm,24mm size=1600,1067 skew=89deg phi=30deg" \
+  " xy=10,-30,2 as hall\n"
 constexpr Example kExportExamples[] = {
     {"place block xy=0,0,0 xy=4,3,0; export \"hall.glb\"", "true"},
     {"place slab length=4m width=3m height=2m xy=0,0,0; export \"hall.stl\"", "true"},
+    {TRANOS_CAMERA "export \"hall.json\" camera=hall", "true"},
+    {TRANOS_CAMERA "export exact \"hall.json\" camera=hall", "true"},
+    {TRANOS_CAMERA "export fspy \"hall.json\" camera=hall", "true"},
+    {TRANOS_CAMERA "export opencv \"hall.yaml\" camera=hall", "true"},
+    {TRANOS_CAMERA "export blender \"hall.py\" camera=hall", "true"},
+    {TRANOS_CAMERA "export colmap \"hall\" camera=hall", "true"},
+    {TRANOS_CAMERA "export \"hall.fspy\" camera=hall", "E0901"},
+    {TRANOS_CAMERA "export \"hall.glb\" camera=hall", "E0705"},
+    {"attach photo \"facade.png\" as hall; export \"hall.fspy\"", "E0902"},
+    {"export \"hall.yaml\"", "E0901"},
     {"export \"hall.doc\"", "E0705"}};
+#undef TRANOS_CAMERA
 constexpr Example kPrintExamples[] = {
     {"place line xy=0,0,0 dl=3; print \"it is {last.length} long\"", "last.length == 3m"},
     {"print", "E0220"}};
@@ -132,11 +211,14 @@ constexpr Command kCommands[] = {
      .family = "output",
      .summary =
          "Writes the model as it stands into a file, whose extension chooses the format: glb, or "
-         "stl for the faces alone.",
+         "stl for the faces alone; or a camera for other programs: fspy and json for fSpy, yaml "
+         "for "
+         "OpenCV, py for Blender, a folder for COLMAP, json with `exact` for the camera as it is.",
      .keys = kExportKeys,
+     .options = "fspy|opencv|colmap|blender|exact",
      .string_key = "file",
      .examples = kExportExamples,
-     .execute = Export},
+     .execute_with = Export},
     {.words = "print",
      .family = "output",
      .summary = "Says something while the script runs.",

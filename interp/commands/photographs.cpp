@@ -34,9 +34,8 @@ tl::expected<ElementPtr, CommandError> PhotographNamed(const model::State& state
 
 }  // namespace
 
-tl::expected<ElementPtr, CommandError> PhotographMeant(const model::State& state,
-                                                       const Answers& answers,
-                                                       std::string_view key) {
+tl::expected<ElementPtr, CommandError> PhotographAt(const model::State& state,
+                                                    const Answers& answers, std::string_view key) {
   if (const model::Value* given = answers.Find(key)) {
     const ElementPtr current = state.model.Current(given->element()->id);
     if (current && IsPhotograph(*current)) return current;
@@ -45,13 +44,18 @@ tl::expected<ElementPtr, CommandError> PhotographMeant(const model::State& state
                                         NameForMessage(*given->element())),
                  .where = AtKey(key)});
   }
-  for (const std::string& word : answers.words) {
-    if (word != "default") return PhotographNamed(state, word);
-  }
   if (ElementPtr active = state.model.Current(state.drawing.photograph)) return active;
   return Fail({.code = Code::kNoPhotograph,
                .message = "there is no photograph yet",
                .help = "attach photo \"fire_1917.png\" format=40.5mm,26.7mm as fire"});
+}
+
+tl::expected<ElementPtr, CommandError> PhotographMeant(const model::State& state,
+                                                       const Answers& answers) {
+  for (const std::string& word : answers.words) {
+    if (word != "default" && !answers.Has("photo")) return PhotographNamed(state, word);
+  }
+  return PhotographAt(state, answers, "photo");
 }
 
 const model::Photograph& PhotographOf(const model::Element& element) {

@@ -11,8 +11,11 @@ inline constexpr double kDegree = geom::kPi / 180;
 // The photograph or camera that a statement means: by its name in a bare word, by photo= (or the
 // key with this name), or the one last attached or set.
 tl::expected<model::ElementPtr, CommandError> PhotographMeant(const model::State& state,
-                                                              const Answers& answers,
-                                                              std::string_view key = "photo");
+                                                              const Answers& answers);
+// The photograph or camera that a key gives, or else the one last attached or set.
+tl::expected<model::ElementPtr, CommandError> PhotographAt(const model::State& state,
+                                                           const Answers& answers,
+                                                           std::string_view key);
 const model::Photograph& PhotographOf(const model::Element& element);
 model::ElementPtr WithPhotograph(const model::Element& element, model::Photograph photograph);
 CommandError NoCameraYet(const model::Element& photograph);

@@ -129,7 +129,7 @@ std::optional<CommandError> SetSize(const Answers& answers, PhotoRequest& reques
 }
 
 tl::expected<PhotoRequest, CommandError> RequestOf(const State& state, const Answers& answers) {
-  const auto taken = PhotographMeant(state, answers, "camera");
+  const auto taken = PhotographAt(state, answers, "camera");
   if (!taken) return Fail(taken.error());
   const model::Photograph& photograph = PhotographOf(**taken);
   if (!photograph.estimate || !photograph.estimate->determined()) return Fail(NoCameraYet(**taken));
@@ -173,16 +173,6 @@ tl::expected<PhotographFile, CommandError> Taken(const PhotoRequest& request,
   return surroundings.photographs.emplace(key, std::move(taken)).first->second;
 }
 
-// The file and, with the extension .json, what is true of it.
-void AddFiles(const std::string& file, const PhotoRequest& request, camera::PhotoPtr pixels,
-              model::Edit* edit) {
-  const auto taken_as = std::make_shared<const PhotoRequest>(request);
-  const std::string stem = file.substr(0, file.size() - 4);
-  for (const std::string& name : {file, stem + ".json"}) {
-    edit->outputs.emplace_back(model::PhotoFileRequest{taken_as, pixels, name});
-  }
-}
-
 CommandResult RenderPhoto(const State& state, const Answers& answers,
                           const Surroundings& surroundings) {
   const std::string file = answers.Text("file");
@@ -201,7 +191,8 @@ CommandResult RenderPhoto(const State& state, const Answers& answers,
   photograph.frame = {UnstatedFormat(taken->size_px), taken->size_px};
   Fired fired = *Make(state, std::make_shared<const model::Photograph>(std::move(photograph)));
   if (!file.empty() && taken->picture) {
-    AddFiles(file, *request, *taken->picture->Pixels(), &fired.edit);
+    fired.edit.outputs.emplace_back(model::PhotoFileRequest{
+        std::make_shared<const PhotoRequest>(*request), *taken->picture->Pixels(), file});
   }
   return fired;
 }

@@ -42,6 +42,17 @@ TEST(Camera, IsFoundAgainFromItsMatrices) {
   EXPECT_LT((again.parameters - camera.parameters).cwiseAbs().maxCoeff(), 1e-12);
 }
 
+TEST(Camera, IsFoundAgainWhereItLooksStraightUpOrDown) {
+  for (const double omega : {kPi / 2, -kPi / 2, kPi / 2 - 1e-9}) {
+    Camera camera = Benchmark1();
+    camera[kOmega] = omega;
+    camera[kKappa] = 2.5;
+    const Mat3 rotation = CameraFromWorld(camera.parameters);
+    const Camera again = CameraOf(FrameFromCamera(camera.parameters), rotation, Vec3::Zero());
+    EXPECT_LT((CameraFromWorld(again.parameters) - rotation).cwiseAbs().maxCoeff(), 1e-12);
+  }
+}
+
 TEST(Frame, TheMiddleOfThePictureIsTheOriginInMillimetres) {
   const Frame frame{{40.5, 26.7}, {484, 319}};
   EXPECT_LT(frame.PointFromDot({241.5, 159}).norm(), 1e-12);
