@@ -153,6 +153,9 @@ TEST(Photograph, ThePrintKeepsThemThere) {
 
 model::PhotoRequest AgedOf(double strength) {
   model::PhotoRequest request = RequestOf(0, 0);
+  request.model =
+      ModelOf({WallOf({-5, 0, 0}, 12, 8)});  // a light one, under a sky that is as light
+  request.taken = request.model.Current(0);
   request.frame.size_px = {484, 319};
   request.effects = {strength, strength, strength, strength,
                      strength, strength, strength, strength};
