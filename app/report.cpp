@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "model/element.h"
+#include "model/covariance.h"
 
 namespace tranos::app {
 
@@ -29,6 +29,15 @@ ordered_json Text(std::string_view text) {
   return text.empty() ? ordered_json(nullptr) : ordered_json(text);
 }
 
+// Of a drawn point, in m²: null where nothing of it is uncertain.
+ordered_json CovarianceJson(const model::Element& element) {
+  const auto covariance = model::CovarianceOf(element);
+  if (!covariance) return nullptr;
+  ordered_json rows = ordered_json::array();
+  for (const auto& row : covariance->rowwise()) rows.push_back({row[0], row[1], row[2]});
+  return rows;
+}
+
 ordered_json ElementJson(const model::Element& element, model::ElementId parent) {
   return {{"id", element.id},
           {"name", Text(element.name_or_empty())},
@@ -41,6 +50,7 @@ ordered_json ElementJson(const model::Element& element, model::ElementId parent)
           {"length", Number(model::Length(element))},
           {"area", Number(model::Area(element))},
           {"volume", Number(model::Volume(element))},
+          {"covariance", CovarianceJson(element)},
           {"hash", model::Hex(element.hash)}};
 }
 

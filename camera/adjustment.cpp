@@ -9,6 +9,11 @@
 
 namespace tranos::camera {
 
+FacadePlane PlaneOf(const Layout& layout, int facade, const Eigen::VectorXd& state) {
+  const int column = layout.facade_column[facade];
+  return column < 0 ? FacadePlane{} : FacadePlane{state[column], state[column + 1]};
+}
+
 namespace {
 
 template <class... Ts>
@@ -41,11 +46,6 @@ int ResidualsOf(const Trace& trace) {
                  [](const RectangleTrace&) { return 8; }, [](const RatioTrace&) { return 8; },
                  [](const auto&) { return 2; }},
       trace);
-}
-
-FacadePlane PlaneOf(const Layout& layout, int facade, const Eigen::VectorXd& state) {
-  const int column = layout.facade_column[facade];
-  return column < 0 ? FacadePlane{} : FacadePlane{state[column], state[column + 1]};
 }
 
 // Writes the rows of one photograph's traces.

@@ -11,6 +11,7 @@
 
 #include <span>
 
+#include "camera/facade_plane.h"
 #include "camera/traces.h"
 
 namespace tranos::camera {
@@ -67,6 +68,9 @@ geom::Result<Linearised> Linearise(std::span<const Photograph>, std::span<const 
 // Whether what is traced on facades is before the cameras.
 bool SeesFacades(std::span<const Photograph>, const Layout&, const Numbers&,
                  const Eigen::VectorXd& state);
+
+// Where the facade with this index is.
+FacadePlane PlaneOf(const Layout&, int facade, const Eigen::VectorXd& state);
 
 // Dots from metres on the facade of the rectangle with these rows, to the right and upward from its
 // first dot.

@@ -108,8 +108,8 @@ std::vector<Alternative> AlternativesOf(const Task& task, std::span<const Refine
     if (!at) continue;
     const Estimate estimate =
         EstimatesOf(task.photographs, task.unknowns, task.layout, other, *at).front();
-    alternatives.push_back(
-        {estimate.camera, estimate.chi2, estimate.covariance, estimate.deviations});
+    alternatives.push_back({estimate.camera, estimate.chi2, estimate.covariance,
+                            estimate.deviations, estimate.facades});
   }
   return alternatives;
 }

@@ -35,12 +35,23 @@ struct UnknownEstimate {
   bool at_bound = false;
 };
 
+// A facade that traces declared: an upright plane, its x to the right and its y upward as seen from
+// outside, from the first dot of its first rectangle, or else from the foot of the world's origin.
+struct FacadeEstimate {
+  geom::Frame plane;
+  // Of how far it is moved along its normal at its origin (m) and turned about its x and its y
+  // (rad), by the columns of Estimate::deviations.
+  Eigen::MatrixXd deviations;
+  bool determined = true;
+};
+
 // A second pose that explains the traces within their noise.
 struct Alternative {
   Camera camera;
   double chi2 = 0;
   Eigen::MatrixXd covariance;  // as Estimate's, with its deviations
   Eigen::MatrixXd deviations;
+  std::vector<FacadeEstimate> facades;
 };
 
 // Where a traced rectangle's plane is in the picture, whatever camera took it.
@@ -84,6 +95,7 @@ struct Estimate {
   // Half the width of a 95 % interval in deviations: the normal distribution's, or Student's t.
   double quantile95 = 1.959963984540054;
   std::vector<UnknownEstimate> unknowns;
+  std::vector<FacadeEstimate> facades;  // by the index that traces have
   std::vector<Alternative> alternatives;
   std::vector<TraceResidual> residuals;
   std::vector<std::string> undetermined;  // in words: what trades off, and what would determine it

@@ -120,17 +120,21 @@ void WarnOfVanishingPoints(const Photograph& photograph, const Numbers& numbers,
   }
 }
 
-// A triangular root of the covariance of the unknowns and then all cameras, its rows in the order
-// of the state: so the sources of the unknowns are the first ones, whatever a pose is. Rows of what
-// is not determined are zero.
+// A triangular root of the covariance of the unknowns, then all cameras, and then the facades, its
+// rows in the order of the state: so the sources of the unknowns are the first ones, whatever a
+// pose is. Rows of what is not determined, and of other nuisances, are zero.
 Eigen::MatrixXd RootOf(const Eigen::MatrixXd& covariance, const Layout& layout) {
   constexpr double kRounding = 1e-13;
-  const int n = layout.nuisance_column();
-  Eigen::VectorXi order(n);
-  for (int i = 0; i < n; ++i) order[i] = (layout.unknown_column() + i) % n;
-  const Eigen::VectorXd sigma = covariance.diagonal().head(n).cwiseMax(0).cwiseSqrt();
+  std::vector<int> order;
+  for (int i = layout.unknown_column(); i < layout.nuisance_column(); ++i) order.push_back(i);
+  for (int i = 0; i < layout.unknown_column(); ++i) order.push_back(i);
+  for (const int column : layout.facade_column) {
+    if (column >= 0) order.insert(order.end(), {column, column + 1});
+  }
+  const int n = static_cast<int>(order.size());
+  const Eigen::VectorXd sigma = covariance.diagonal().cwiseMax(0).cwiseSqrt();
   const auto scale = [&](int column) { return sigma[column] > 0 ? 1 / sigma[column] : 0.0; };
-  Eigen::MatrixXd root = Eigen::MatrixXd::Zero(n, n);
+  Eigen::MatrixXd root = Eigen::MatrixXd::Zero(layout.columns, n);
   for (int j = 0; j < n; ++j) {
     for (int i = j; i < n; ++i) {
       const double correlation = covariance(order[i], order[j]) * scale(order[i]) * scale(order[j]);
@@ -140,6 +144,39 @@ Eigen::MatrixXd RootOf(const Eigen::MatrixXd& covariance, const Layout& layout) 
     }
   }
   return sigma.asDiagonal() * root;
+}
+
+// The first dot of the facade's first rectangle, on the facade; its foot if it has none.
+Vec2 OriginOn(int facade, std::span<const Photograph> photographs, const Layout& layout,
+              const Eigen::VectorXd& state) {
+  for (const TraceRows& rows : layout.traces) {
+    const auto* rectangle =
+        std::get_if<RectangleTrace>(&photographs[rows.photograph].traces[rows.trace]);
+    if (!rectangle || rectangle->facade != facade) continue;
+    const int column = layout.trace_column[rows.photograph][rows.trace];
+    return column < 0 ? Vec2(Vec2::Zero()) : Vec2(state.segment<2>(column));
+  }
+  return Vec2::Zero();
+}
+
+std::vector<FacadeEstimate> FacadesOf(std::span<const Photograph> photographs, const Layout& layout,
+                                      const Eigen::VectorXd& state, const Determination& d,
+                                      const Eigen::MatrixXd& root) {
+  std::vector<FacadeEstimate> facades;
+  for (int i = 0; i < static_cast<int>(layout.facade_column.size()); ++i) {
+    const FacadePlane plane = PlaneOf(layout, i, state);
+    const Vec2 origin = OriginOn(i, photographs, layout, state);
+    FacadeEstimate& facade = facades.emplace_back();
+    facade.plane = {plane.Point(origin), plane.right(), Vec3::UnitZ()};
+    facade.deviations = Eigen::MatrixXd::Zero(3, root.cols());
+    const int column = layout.facade_column[static_cast<std::size_t>(i)];
+    if (column < 0) continue;
+    // The normal points outward, against the distance, and the upright axis is y.
+    facade.deviations.row(0) = -root.row(column + 1) - origin.x() * root.row(column);
+    facade.deviations.row(2) = root.row(column);
+    facade.determined = d.with_priors[column] && d.with_priors[column + 1];
+  }
+  return facades;
 }
 
 }  // namespace
@@ -176,6 +213,7 @@ std::vector<Estimate> EstimatesOf(std::span<const Photograph> photographs,
   common.chi2 = at.residuals.squaredNorm();
   common.dof = layout.rows() - d.rank;
   common.undetermined = d.undetermined;
+  common.facades = FacadesOf(photographs, layout, refined.state, d, root);
   for (int i = 0; i < layout.unknowns; ++i) {
     const int column = layout.unknown_column() + i;
     const bool at_bound = !refined.at_bound.empty() && refined.at_bound[i];

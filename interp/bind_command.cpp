@@ -284,13 +284,6 @@ void Binder::UnknownKey(NodeId word, const Command* row) {
 
 void Binder::BindPoint(NodeId id, const PointKeyRow& row, const std::vector<NodeId>& values) {
   const int count = static_cast<int>(values.size());
-  if (row.kind == PointKey::kDot) {
-    const Scope* const owner = CommandScope();
-    if (!owner || !owner->command->dots) {
-      return Error(Code::kNotYet, SpanOf(id), "dots draw on no facade yet",
-                   "part of the language, but not of this version", "a dot belongs to a `trace`");
-    }
-  }
   if (count < row.least || count > row.most) {
     return Error(Code::kWrongCount, SpanOf(id),
                  "`" + std::string(row.key) + "=` is given " + std::to_string(count) + " values",

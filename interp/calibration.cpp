@@ -14,6 +14,7 @@
 #include "camera/sweep.h"
 #include "camera/trace_checks.h"
 #include "interp/camera_report.h"
+#include "interp/commands/drawing.h"
 #include "interp/evaluation.h"
 #include "interp/machine.h"
 #include "interp/traced.h"
@@ -252,6 +253,14 @@ Fired Machine::Calibrated(Solution solution, const model::State& before, Span sp
   CheckNumbers(evaluation, trial, run.state(), traced);
   Fired fired;
   fired.edit = Adopt(run, before, span);
+  const std::vector<camera::FacadeEstimate>& facades = found[0].facades;
+  for (std::size_t i = 0; i < std::min(facades.size(), traced.facades.size()); ++i) {
+    if (!facades[i].determined) continue;
+    fired.edit.added.push_back(model::WithMoved(
+        *NewElement(run.state(),
+                    FacadeGeometry(traced.facades[i], facades[i].plane, static_cast<int>(i))),
+        MovedFacade(traced.facades[i], facades[i], static_cast<int>(i))));
+  }
   for (std::size_t p = 0; p < found.size(); ++p) {
     const ElementPtr element = run.state().model.Current(traced.photograph_ids[p]);
     model::Photograph photograph = *std::get<model::PhotographPtr>(element->geometry);

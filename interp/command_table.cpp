@@ -27,9 +27,10 @@ std::vector<Command> Collect() {
                             SolidBooleanCommands(), SymmetryCommands(),
                             PlaneCommands(),        ViewCommands(),
                             OutputCommands(),       PhotographCommands(),
-                            RenderPhotoCommands(),  PriorCommands(),
-                            TraceCommands(),        CalibrateCommands(),
-                            HistoryCommands(),      LaterCommands()}) {
+                            RenderPhotoCommands(),  FacadeCommands(),
+                            PriorCommands(),        TraceCommands(),
+                            CalibrateCommands(),    HistoryCommands(),
+                            LaterCommands()}) {
     all.insert(all.end(), family.begin(), family.end());
   }
   std::stable_sort(all.begin(), all.end(), [](const Command& a, const Command& b) {

@@ -167,6 +167,17 @@ double FromEachLeaf(const model::Element& a, const model::Element& b) {
   return best;
 }
 
+const geom::Frame* PlaneOf(const model::Element& element) {
+  const auto* facade = std::get_if<model::FacadePtr>(&element.geometry);
+  return facade ? &(*facade)->plane : nullptr;
+}
+
+// Planes that are not parallel meet.
+double BetweenPlanes(const geom::Frame& a, const geom::Frame& b) {
+  if (a.z().cross(b.z()).norm() > 1e-12) return 0;
+  return std::abs(a.z().dot(b.origin - a.origin));
+}
+
 }  // namespace
 
 double DistanceBetween(const CallContext& context, const model::Element& a,
@@ -176,6 +187,9 @@ double DistanceBetween(const CallContext& context, const model::Element& a,
   const auto* line = p ? std::get_if<geom::Line>(p) : nullptr;
   const auto* other = q ? std::get_if<geom::Line>(q) : nullptr;
   if (line && other) return BetweenLines(*line, *other);
+  const geom::Frame *plane = PlaneOf(a), *other_plane = PlaneOf(b);
+  if (plane && other_plane) return BetweenPlanes(*plane, *other_plane);
+  if (plane) return DistanceBetween(context, b, a);
   bool face_a = false, face_b = false;
   const std::uint64_t leaves_a = CountLeaves(a, &face_a), leaves_b = CountLeaves(b, &face_b);
   if (leaves_a == 0 || leaves_b == 0) {

@@ -4,6 +4,7 @@
 
 #include "geom/crossing.h"
 #include "interp/value_support.h"
+#include "model/facades.h"
 
 namespace tranos::interp {
 
@@ -84,6 +85,16 @@ Value Project(const CallContext& context, Arguments a) {
   return Value::OfPoint(line->start + along.dot(p - line->start) / along.squaredNorm() * along);
 }
 
+Value Facade(const CallContext& context, Arguments a) {
+  if (!a[0].is_string()) FailArgument(a, 0, "a facade's name");
+  if (const auto found = model::FindFacade(context.state->model, a[0].string())) {
+    return Value::OfElement(found);
+  }
+  const auto meant = DidYouMean(a[0].string(), model::FacadeNames(context.state->model));
+  throw OpFailure{Code::kNoFacade, "no facade is called " + Shown(a[0]), "",
+                  meant ? "did you mean `" + *meant + "`?" : "", 0};
+}
+
 constexpr Builtin kGeometry[] = {
     {"area(e)", "the area of a face or of a closed planar curve", 1, 1, Area},
     {"volume(e)", "the volume of a closed body", 1, 1, Volume},
@@ -94,6 +105,7 @@ constexpr Builtin kGeometry[] = {
     {"project(p, onto)",
      "the foot of a point on a line or a plane; else the nearest point of an element", 2, 2,
      Project},
+    {"facade(name)", "the facade that commands know by this name", 1, 1, Facade},
 };
 
 }  // namespace

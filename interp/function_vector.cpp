@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Functions of points and directions.
+#include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "interp/value_support.h"
 
@@ -59,8 +61,20 @@ Value Normalize(const CallContext& context, Arguments a) {
   return Value::List(std::move(items));
 }
 
-// A direction, or that of a straight element.
+// The plane or facade among the arguments; null if it is another value.
+std::optional<geom::Frame> PlaneArgument(const CallContext& context, Arguments a, int index) {
+  const Value& value = a[static_cast<std::size_t>(index)];
+  if (value.kind() == Value::Kind::kPlane) return value.plane();
+  if (!value.is_element()) return std::nullopt;
+  const model::ElementPtr element = ElementArgument(context, a, index);
+  const auto* facade = std::get_if<model::FacadePtr>(&element->geometry);
+  if (!facade) return std::nullopt;
+  return (*facade)->plane;
+}
+
+// A direction, that of a straight element, or the normal of a plane.
 std::vector<Value> DirectionArgument(const CallContext& context, Arguments a, int index) {
+  if (const auto plane = PlaneArgument(context, a, index)) return Value::OfPoint(plane->z()).list();
   if (!a[static_cast<std::size_t>(index)].is_element()) return VectorArgument(context, a, index);
   const model::ElementPtr element = ElementArgument(context, a, index);
   const geom::Curve* curve = CurveOf(*element);
@@ -74,7 +88,7 @@ std::vector<Value> DirectionArgument(const CallContext& context, Arguments a, in
 }
 
 // By sine and cosine together: neither alone tells angles near 0 and near a right angle well.
-Value Angle(const CallContext& context, Arguments a) {
+Value AngleOfDirections(const CallContext& context, Arguments a) {
   const std::vector<Value> u = DirectionArgument(context, a, 0),
                            v = DirectionArgument(context, a, 1);
   const Value nu = Norm(u), nv = Norm(v);
@@ -94,6 +108,18 @@ Value Angle(const CallContext& context, Arguments a) {
     terms.push_back({&v[at], (y[i] * cosine - x[i]) / sine / nv.number()});
   }
   return Combine(ArcTangent(sine, cosine), model::kAngle, terms);
+}
+
+// Planes have two sides: what is told of them is at most a right angle.
+Value Angle(const CallContext& context, Arguments a) {
+  const Value angle = AngleOfDirections(context, a);
+  const int planes = static_cast<int>(PlaneArgument(context, a, 0).has_value()) +
+                     static_cast<int>(PlaneArgument(context, a, 1).has_value());
+  if (planes == 0) return angle;
+  const double acute_rad = std::min(angle.number(), geom::kPi - angle.number());
+  const double slope = angle.number() > geom::kPi / 2 ? -1 : 1;
+  if (planes == 2) return Combine(acute_rad, model::kAngle, {{&angle, slope}});
+  return Combine(geom::kPi / 2 - acute_rad, model::kAngle, {{&angle, -slope}});
 }
 
 std::vector<Value> PointArgument(const CallContext& context, Arguments a, int index) {
@@ -141,8 +167,12 @@ constexpr Builtin kVector[] = {
     {"cross(a, b)", "the vector product of two vectors", 2, 2, Cross},
     {"length(v)", "the length of a vector or of an element", 1, 1, Length},
     {"normalize(v)", "the direction of a vector, as plain numbers", 1, 1, Normalize},
-    {"angle(a, b)", "the angle between two directions or lines, from 0 to 180deg", 2, 2, Angle},
-    {"distance(a, b)", "between the nearest points of two points or elements", 2, 2, Distance},
+    {"angle(a, b)",
+     "the angle between two directions or lines, from 0 to 180deg; with a plane or facade, to "
+     "90deg",
+     2, 2, Angle},
+    {"distance(a, b)", "between the nearest points of two points or elements; a facade is a plane",
+     2, 2, Distance},
 };
 
 }  // namespace

@@ -66,6 +66,9 @@ StageLinks Machine::LinksFor(bool is_script) {
             return Calibrate(answers, state, span);
           },
           &sources_,
+          [this](model::ElementId photograph, const geom::Vec2& dot_px, double noise_px) {
+            return SourceOfDot(photograph, dot_px, noise_px);
+          },
           photographs_.get(),
           &solids_,
           unsolved_ ? &trail_ : nullptr,
@@ -73,6 +76,17 @@ StageLinks Machine::LinksFor(bool is_script) {
           stages_made_++,
           &turns_,
           &turn_values_};
+}
+
+// One place of a photograph is one observation, however often something is drawn by it. Before
+// `calibrate` a source is something that it may solve for, so that dots have none.
+std::optional<model::SourceId> Machine::SourceOfDot(model::ElementId photograph,
+                                                    const geom::Vec2& dot_px, double noise_px) {
+  if (unsolved_) return std::nullopt;
+  const auto [known, is_new] = dot_sources_.try_emplace(
+      {photograph, dot_px.x(), dot_px.y()}, static_cast<model::SourceId>(sources_.size()));
+  if (is_new) sources_.insert(sources_.end(), 2, {noise_px, ""});
+  return known->second;
 }
 
 Outcome Machine::Run() {

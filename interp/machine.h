@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <tuple>
 #include <unordered_map>
 #include <vector>
 
@@ -120,6 +121,8 @@ class Machine {
   void Print(std::string_view line);
   void PrintHeld();
 
+  std::optional<model::SourceId> SourceOfDot(model::ElementId photograph,
+                                             const geom::Vec2& dot_px, double noise_px);
   void EvaluateSolids(const model::Model& last) const;
   CallContext ContextOf(const Instruction& i, Span span);
   StageLinks LinksFor(bool is_script);
@@ -143,6 +146,7 @@ class Machine {
   bool unsolved_ = false;         // `calibrate` stands in the script and is still to come
   const Trial* trial_ = nullptr;  // the values of the unknowns that this run tries, or none
   Trail trail_;
+  std::map<std::tuple<model::ElementId, double, double>, model::SourceId> dot_sources_;
   std::vector<Solvable> solvables_;  // what can be solved for, as it was met: a source each
   std::optional<Slice> slice_;       // what was computed from these; until `calibrate`, of the run
   std::uint64_t stages_made_ = 0;

@@ -2,6 +2,7 @@
 // The slower instructions that compute a value and change nothing else.
 #include <algorithm>
 
+#include "interp/differences.h"
 #include "interp/machine.h"
 #include "interp/value_support.h"
 
@@ -198,7 +199,7 @@ void Machine::ComputeValue(const Instruction& i, const CodeUnit& unit, Value* r,
       const Builtin& row = AllBuiltins()[i.flags];
       budget_.ChargeSteps(1, span);
       for (std::uint32_t n = 0; n < i.c; ++n) budget_.ChargeSteps(DeviationSteps(r[i.b + n]), span);
-      r[i.a] = row.call(ContextOf(i, span), {r + i.b, i.c});
+      r[i.a] = CallBuiltin(row, ContextOf(i, span), {r + i.b, i.c});
       break;
     }
     case Op::kCallValue:

@@ -7,7 +7,9 @@
 #include <optional>
 
 #include "interp/camera_report.h"
+#include "interp/differences.h"
 #include "interp/value_support.h"
+#include "model/covariance.h"
 
 namespace tranos::interp {
 
@@ -286,6 +288,15 @@ std::optional<Value> TraceMember(const model::Trace& trace, std::string_view nam
   return Value::List(std::move(dots));
 }
 
+std::optional<Value> FacadeMember(const model::Facade& facade, std::string_view name) {
+  if (name == "plane") return Value::Plane(facade.plane);
+  if (name == "origin") return Value::OfPoint(facade.plane.origin);
+  if (name == "right") return Direction(facade.plane.x);
+  if (name == "up") return Direction(facade.plane.y);
+  if (name == "normal") return Direction(facade.plane.z());
+  return std::nullopt;
+}
+
 // What only this kind of element has.
 std::optional<Value> OwnMember(const CallContext& context, const ElementPtr& named,
                                std::string_view name) {
@@ -308,6 +319,9 @@ std::optional<Value> OwnMember(const CallContext& context, const ElementPtr& nam
   if (const auto* trace = std::get_if<model::TracePtr>(&element.geometry)) {
     return TraceMember(**trace, name);
   }
+  if (const auto* facade = std::get_if<model::FacadePtr>(&element.geometry)) {
+    return FacadeMember(**facade, name);
+  }
   if (const auto* group = std::get_if<model::GroupPtr>(&element.geometry)) {
     return GroupMember(context, element, **group, name);
   }
@@ -318,7 +332,8 @@ std::optional<Value> OwnMember(const CallContext& context, const ElementPtr& nam
 }
 
 std::vector<std::string> OwnMembers(const Element& element) {
-  if (std::holds_alternative<model::Point>(element.geometry)) return {"position", "x", "y", "z"};
+  if (std::holds_alternative<model::Point>(element.geometry))
+    return {"position", "x", "y", "z", "covariance"};
   if (const geom::Curve* curve = CurveOf(element)) return CurveMembers(*curve);
   if (SurfaceOf(element)) return {"point(u, v)", "normal(u, v)"};
   if (SolidOf(element)) return {std::begin(kSolidMembers), std::end(kSolidMembers)};
@@ -328,6 +343,9 @@ std::vector<std::string> OwnMembers(const Element& element) {
   }
   if (std::holds_alternative<model::PhotographPtr>(element.geometry)) return PhotographMembers();
   if (std::holds_alternative<model::TracePtr>(element.geometry)) return {"dots", "noise"};
+  if (std::holds_alternative<model::FacadePtr>(element.geometry)) {
+    return {"plane", "origin", "right", "up", "normal"};
+  }
   std::vector<std::string> names;
   if (const auto* group = std::get_if<model::GroupPtr>(&element.geometry)) {
     for (const model::NamedElements& named : (*group)->names) names.push_back(named.name);
@@ -385,22 +403,21 @@ Value Face(const CallContext& context, const ElementPtr& element, Arguments argu
   FailMember(WithArticle(prototype.words), arguments[0].string(), names);
 }
 
-}  // namespace
-
-Value ElementMember(const CallContext& context, const ElementPtr& named, std::string_view name) {
-  const ElementPtr element = CurrentElement(*context.state, named);
-  if (std::optional<Value> own = OwnMember(context, element, name)) return *std::move(own);
-  for (const Row& row : kMeasures) {
-    if (row.name != name) continue;
-    if (row.measures_solids) context.evaluate(*element);
-    return row.read(*element);
+// Rows of the covariance of a point's coordinates: zeros where it hangs on nothing uncertain.
+Value CovarianceValue(const Element& point) {
+  const Eigen::Matrix3d covariance =
+      model::CovarianceOf(point).value_or(Eigen::Matrix3d(Eigen::Matrix3d::Zero()));
+  std::vector<Value> rows;
+  for (int i = 0; i < 3; ++i) {
+    std::vector<Value> row;
+    for (int j = 0; j < 3; ++j) row.push_back(Value::Number(covariance(i, j), model::kArea));
+    rows.push_back(Value::List(std::move(row)));
   }
-  FailMember(WithArticle(model::TypeOf(*element)), name, MembersOf(*element));
+  return Value::List(std::move(rows));
 }
 
-Value ElementMethod(const CallContext& context, const ElementPtr& named, std::string_view name,
-                    Arguments arguments) {
-  const ElementPtr element = CurrentElement(*context.state, named);
+Value MethodOf(const CallContext& context, const ElementPtr& element, std::string_view name,
+               Arguments arguments) {
   if (const geom::Curve* curve = CurveOf(*element); curve && name == "at") {
     CheckCount("at(fraction)", arguments, 1);
     return Value::OfPoint(geom::PointAtFraction(*curve, FractionArgument(arguments, 0)));
@@ -419,6 +436,31 @@ Value ElementMethod(const CallContext& context, const ElementPtr& named, std::st
   throw OpFailure{Code::kWrongType,
                   "`" + Printable(name) + "` is " + Describe(member) + ", and is not called", "",
                   "write it without ( )"};
+}
+
+}  // namespace
+
+Value ElementMember(const CallContext& context, const ElementPtr& named, std::string_view name) {
+  const ElementPtr current = CurrentElement(*context.state, named);
+  const bool is_point = std::holds_alternative<model::Point>(current->geometry);
+  if (is_point && name == "covariance") return CovarianceValue(*current);
+  return ReadOff(current, [&](const ElementPtr& element) {
+    if (std::optional<Value> own = OwnMember(context, element, name)) return *std::move(own);
+    for (const Row& row : kMeasures) {
+      if (row.name != name) continue;
+      if (row.measures_solids) context.evaluate(*element);
+      return row.read(*element);
+    }
+    FailMember(WithArticle(model::TypeOf(*element)), name, MembersOf(*element));
+  });
+}
+
+Value ElementMethod(const CallContext& context, const ElementPtr& named, std::string_view name,
+                    Arguments arguments) {
+  const ElementPtr current = CurrentElement(*context.state, named);
+  return ReadOff(current, [&](const ElementPtr& element) {
+    return MethodOf(context, element, name, arguments);
+  });
 }
 
 }  // namespace tranos::interp

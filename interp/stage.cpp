@@ -3,6 +3,7 @@
 #include "interp/stage.h"
 
 #include <algorithm>
+#include <map>
 
 #include <cmath>
 
@@ -74,11 +75,13 @@ void Stage::Start(const Command* row, const Definition* definition, Span span) {
   active_.points.assign(row->prompts.size(), Vec3::Zero());
   active_.point_spans.assign(row->prompts.size(), span);
   active_.point_notes.assign(row->prompts.size(), Slice::kNone);
+  active_.point_terms.assign(row->prompts.size(), {});
   active_.answered.assign(row->prompts.size(), false);
   if (row->manner == Manner::kGathers) {
     active_.points.clear();
     active_.point_spans.clear();
     active_.point_notes.clear();
+    active_.point_terms.clear();
   }
   active_.begun = 0;
   active_.keys.clear();
@@ -199,6 +202,20 @@ Vec3 Coordinates(const Value& values, std::size_t* given) {
   return out;
 }
 
+// How a point hangs on what its coordinates come from.
+PointTerms TermsOfPoint(const Value& values) {
+  if (!values.is_list()) return {};
+  std::map<model::SourceId, Vec3> terms;
+  for (std::size_t i = 0; i < std::min<std::size_t>(values.list().size(), 3); ++i) {
+    const model::Derivatives* derivatives = values.list()[i].derivatives();
+    if (!derivatives) continue;
+    for (const auto& [source, slope] : derivatives->terms) {
+      terms.try_emplace(source, Vec3::Zero()).first->second[static_cast<Eigen::Index>(i)] = slope;
+    }
+  }
+  return {terms.begin(), terms.end()};
+}
+
 std::string PointText(PointKey kind, const Value& values) {
   static constexpr std::string_view kKeys[] = {"xy", "ax", "dl", "di", "dx", "dot", "on"};
   std::string out = std::string(kKeys[static_cast<int>(kind)]) + "=";
@@ -232,22 +249,62 @@ Vec3 PlaceOf(PointKey kind, const Value& values, const model::Drawing& drawing, 
       return last + view.ToWorld(v) - view.origin;
     }
     case PointKey::kDot:
-      return {v.x(), v.y(), 0};
+      return {v.x(), v.y(), 0};  // as a trace takes it
     case PointKey::kOn:
       break;  // comes through Stage::On
   }
   return last;
 }
 
+// The point of the active facade that a dot is of.
+PlacedPoint Stage::DrawnThrough(const Value& values, Span span) const {
+  std::size_t given = 0;
+  const auto placed = DrawDot(state_, Coordinates(values, &given).head<2>(), links_.dot_source);
+  if (placed) return *placed;
+  Diagnostic diagnostic = MakeDiagnostic(placed.error());
+  diagnostic.span = span;
+  throw RunFailure{std::move(diagnostic)};
+}
+
+// How a data point hangs on sources: as its numbers do, and as the point that it goes on from.
+PointTerms Stage::TermsOf(PointKey kind, const Value& values) const {
+  switch (kind) {
+    case PointKey::kXy:
+      return IsUnsolved() ? PointTerms{} : TermsOfPoint(values);
+    case PointKey::kDl:
+    case PointKey::kDi:
+    case PointKey::kDx:
+      return last_terms_;
+    case PointKey::kDot: {
+      if (!active_.row || active_.row->informs) return {};
+      std::size_t given = 0;
+      const KeyAnswer* key = FindKey("photo");
+      const ElementId photograph = key ? key->value.element()->id : state_.drawing.photograph;
+      const auto source = links_.dot_source(photograph, Coordinates(values, &given).head<2>(),
+                                            NoiseOf(state_, photograph));
+      if (!source) return {};
+      return {{*source, Vec3::UnitX()}, {*source + 1, Vec3::UnitY()}};
+    }
+    case PointKey::kAx:
+    case PointKey::kOn:
+      break;
+  }
+  return {};
+}
+
 void Stage::Point(PointKey kind, const Value& values, Span span) {
   if (links_.options) key_in_ = PointText(kind, values);
+  if (kind == PointKey::kDot && active_.row && !active_.row->dots) {
+    return TakePoint(DrawnThrough(values, span), span);
+  }
   const model::Drawing& drawing = state_.drawing;
   const bool follows = kind == PointKey::kDl || kind == PointKey::kDi || kind == PointKey::kDx;
   if (links_.slice) {
     point_note_ =
         links_.slice->NotePoint(kind, values, drawing, follows ? last_note_ : Slice::kNone);
   }
-  TakePoint(PlaceOf(kind, values, drawing, drawing.last_point), span, kind == PointKey::kDot);
+  TakePoint({PlaceOf(kind, values, drawing, drawing.last_point), TermsOf(kind, values)}, span,
+            kind == PointKey::kDot);
   point_note_ = Slice::kNone;
 }
 
@@ -263,12 +320,13 @@ void Stage::On(const model::Interface& interface, ElementId host, Span span) {
   active_.host = host;
   active_.measures = interface.measures;
   if (links_.options) key_in_ = "on=" + interface.name;
-  TakePoint(interface.frame.origin, span);
+  TakePoint({interface.frame.origin}, span);
   active_.has_frame = false;
   active_.measures.clear();
 }
 
-void Stage::TakePoint(const Vec3& point, Span span, bool is_dot) {
+void Stage::TakePoint(const PlacedPoint& placed, Span span, bool is_dot) {
+  const Vec3& point = placed.point_m;
   if (!point.allFinite()) Fail(Code::kNotFinite, span, "the data point is not finite");
   if (!active_.row) {
     Fail(Code::kNoCommand, span, "there is no active command to take this data point", "",
@@ -284,6 +342,7 @@ void Stage::TakePoint(const Vec3& point, Span span, bool is_dot) {
   if (!is_dot) {
     state_.drawing.last_point = point;
     last_note_ = point_note_;
+    last_terms_ = placed.terms;
   }
   switch (active_.row->manner) {
     case Manner::kImmediate:
@@ -291,7 +350,7 @@ void Stage::TakePoint(const Vec3& point, Span span, bool is_dot) {
            "`" + std::string(active_.row->words) + "` asks for no data point");
     case Manner::kPlaces:
     case Manner::kTransforms:
-      AnswerPrompt(point, span);
+      AnswerPrompt(placed, span);
       break;
     case Manner::kGathers:
       if (static_cast<int>(active_.points.size()) >= active_.row->most) {
@@ -302,6 +361,7 @@ void Stage::TakePoint(const Vec3& point, Span span, bool is_dot) {
       active_.points.push_back(point);
       active_.point_spans.push_back(span);
       active_.point_notes.push_back(point_note_);
+      active_.point_terms.push_back(placed.terms);
       ++active_.begun;
       break;
     case Manner::kChooses:
@@ -318,12 +378,13 @@ void Stage::TakePoint(const Vec3& point, Span span, bool is_dot) {
   if (links_.options && !key_in_.empty()) Tell(std::exchange(key_in_, {}), span, nullptr, {});
 }
 
-void Stage::AnswerPrompt(const Vec3& point, Span span) {
+void Stage::AnswerPrompt(const PlacedPoint& placed, Span span) {
   for (std::size_t i = 0; i < active_.answered.size(); ++i) {
     if (active_.answered[i] || KeyAnswers(static_cast<int>(i))) continue;
-    active_.points[i] = point;
+    active_.points[i] = placed.point_m;
     active_.point_spans[i] = span;
     active_.point_notes[i] = point_note_;
+    active_.point_terms[i] = placed.terms;
     active_.answered[i] = true;
     ++active_.begun;
     break;

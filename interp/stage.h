@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "interp/arithmetic.h"
+#include "interp/commands/drawing.h"
 #include "interp/failure.h"
 #include "interp/run.h"
 #include "interp/slice.h"
@@ -69,6 +70,7 @@ struct StageLinks {
   // Solves for the camera and the unknowns; what changes by it.
   std::function<Fired(const Answers&, const model::State&, Span)> calibrate;
   const SourceList* sources;
+  DotSource dot_source;
   PhotographFiles* photographs;
   SolidLedger* solids;
   Trail* trail;          // null where nothing is solved for
@@ -142,6 +144,7 @@ class Stage {
     std::vector<geom::Vec3> points;
     std::vector<Span> point_spans;
     std::vector<std::size_t> point_notes;  // in the slice
+    std::vector<PointTerms> point_terms;   // how each hangs on sources
     std::vector<bool> answered;            // prompts that a data point answered
     int begun = 0;                         // data points since the last firing
     std::vector<KeyAnswer> keys;
@@ -168,8 +171,12 @@ class Stage {
     model::State before;
     bool touches_outside = false;  // it changed elements that stood before it
   };
-  void TakePoint(const geom::Vec3& point, Span span, bool is_dot = false);
-  void AnswerPrompt(const geom::Vec3& point, Span span);
+  void TakePoint(const PlacedPoint& placed, Span span, bool is_dot = false);
+  void AnswerPrompt(const PlacedPoint& placed, Span span);
+  PlacedPoint DrawnThrough(const model::Value& values, Span span) const;
+  PointTerms TermsOf(PointKey kind, const model::Value& values) const;
+  // Whether numbers' sources are still what `calibrate` solves for, and no deviations yet.
+  bool IsUnsolved() const { return links_.trail && !calibrated_; }
   void PickOrAccept(const geom::Vec3& point, Span span);
   bool PromptsAnswered() const;
   bool TransformIsAnswered() const;
@@ -188,8 +195,10 @@ class Stage {
   void Fire(Span span);
   void GuardChanges(model::Edit* edit) const;
   void NotePlaced(const Answers& answers, const model::Edit& edit) const;
+  void Carry(const Answers& answers, model::Edit* edit, Span span) const;
   void WarnTooLate(const model::Edit& edit) const;
   void FirePlacement(Span span);
+  model::ElementPtr Drawn(const model::Element& placed) const;
   void FireHistory(Span span);
   Fired Execute(const Command& row, const Answers& answers, Span span) const;
   void AskAgain();
@@ -225,6 +234,7 @@ class Stage {
   bool calibrated_ = false;
   std::size_t point_note_ = Slice::kNone;  // of the data point that is keyed in
   std::size_t last_note_ = Slice::kNone;   // of the last point
+  PointTerms last_terms_;                  // likewise
   std::size_t ids_given_ = 0;  // an id is given once in a run, that of an undone element too
   std::vector<std::pair<std::string, std::size_t>> marks_;
   WallVoids wall_voids_;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "interp/commands/firing.h"
+#include "interp/deviations.h"
 #include "interp/functions.h"
 #include "interp/pick.h"
 #include "interp/stage.h"
@@ -185,6 +186,21 @@ void Stage::NotePlaced(const Answers& answers, const model::Edit& edit) const {
                             static_cast<model::ElementId>(state_.model.entries.size())});
 }
 
+// What is made from what was drawn through a photograph hangs on the same sources.
+void Stage::Carry(const Answers& answers, model::Edit* edit, Span span) const {
+  if (IsUnsolved()) return;
+  const auto times =
+      CarryDeviations(*active_.row, state_, answers, active_.point_terms, *links_.sources, edit);
+  if (times) return links_.budget->ChargeSteps(static_cast<std::uint64_t>(*times), span);
+  links_.diagnostics->Add(
+      {Code::kNoDeviation, active_.span,
+       "`" + std::string(active_.row->words) +
+           "` cannot be carried out within the noise of what it is made from, so that what it "
+           "makes has no deviations",
+       "",
+       "where ends should meet, let them go on from one another, or draw both by the same dot"});
+}
+
 // What `calibrate` would have gone by, and stands after it; traces of stated cameras are for
 // their penalty.
 void Stage::WarnTooLate(const model::Edit& edit) const {
@@ -211,6 +227,7 @@ void Stage::Fire(Span span) {
          "nothing is chosen for `" + std::string(row.words) + "`", "", std::string(kChooseHelp));
   }
   Fired fired = Execute(row, answers, span);
+  Carry(answers, &fired.edit, span);
   GuardChanges(&fired.edit);
   wall_voids_.Follow(state_.model, &fired.edit);
   links_.solids->Note(fired.edit.added, active_.span);
@@ -259,6 +276,23 @@ Fired Stage::Execute(const Command& row, const Answers& answers, Span span) cons
   return *std::move(result);
 }
 
+// A placed element with how it moves with the point that it was placed at.
+ElementPtr Stage::Drawn(const model::Element& placed) const {
+  const model::Instance& instance = *std::get<model::InstancePtr>(placed.geometry);
+  std::vector<model::Moved> moved;
+  for (const auto& [source, term] : active_.point_terms[0]) {
+    const double step = model::kMovedBy * (*links_.sources)[source].sigma;
+    if (!(step > 0)) continue;
+    const auto beside = [&](double by) {
+      model::Instance aside = instance;
+      aside.world_from_prototype.pretranslate(by * term);
+      return std::make_shared<const model::Instance>(std::move(aside));
+    };
+    moved.push_back({source, step, beside(step), beside(-step)});
+  }
+  return model::WithMoved(placed, std::move(moved));
+}
+
 void Stage::FirePlacement(Span span) {
   if (const auto error = TooFar(MakeAnswers(span))) throw RunFailure{MakeDiagnostic(*error)};
   Placement placement{active_.definition,       {},           {},
@@ -274,7 +308,9 @@ void Stage::FirePlacement(Span span) {
   placement.world_from_element.rotate(Eigen::AngleAxisd(settings.angle_rad, Vec3::UnitZ()));
   placement.world_from_element.scale(settings.scale);
   model::Edit edit;
-  edit.added.push_back(links_.place(placement, state_));
+  ElementPtr placed = links_.place(placement, state_);
+  if (!active_.point_terms[0].empty()) placed = Drawn(*placed);
+  edit.added.push_back(std::move(placed));
   CheckNear(*edit.added.back(), span);
   links_.budget->ChargeElements(1, span);
   TakeIds();
@@ -354,12 +390,14 @@ void Stage::AskAgain() {
     active_.points.clear();
     active_.point_spans.clear();
     active_.point_notes.clear();
+    active_.point_terms.clear();
     return;
   }
   if (row.carries && !active_.points.empty()) {
     active_.points[0] = active_.points.back();
     active_.point_spans[0] = active_.point_spans.back();
     active_.point_notes[0] = active_.point_notes.back();
+    active_.point_terms[0] = active_.point_terms.back();
   }
   for (std::size_t i = static_cast<std::size_t>(row.again); i < active_.answered.size(); ++i)
     active_.answered[i] = false;

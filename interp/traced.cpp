@@ -139,7 +139,11 @@ class Gathering {
   }
 
   int Facade(const Trace& trace) {
-    return facades_.try_emplace(trace.facade, static_cast<int>(facades_.size())).first->second;
+    const auto known =
+        facades_.try_emplace(trace.facade, static_cast<int>(facades_.size())).first->second;
+    out_.facades.resize(facades_.size());
+    out_.facades[static_cast<std::size_t>(known)] = trace.facade;
+    return known;
   }
 
   const model::State& state_;

@@ -19,6 +19,7 @@ struct Traced {
   std::vector<model::Value> numbers;                     // by camera::NumberIndex, in SI
   std::vector<model::ElementId> number_owners;           // the trace that each stands for
   std::unordered_set<model::ElementId> elements;         // those that traces are of
+  std::vector<std::string> facades;                      // their names, by camera's index
   double noise_px = 0.5;                                 // of the first trace
   bool noise_is_estimated = false;
 };

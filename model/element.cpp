@@ -32,6 +32,7 @@ enum Tag : std::uint8_t {
   kSolid,
   kRegion,
   kRegionPart,
+  kFacade,
 };
 
 void AddCount(Hasher& hasher, std::size_t count) {
@@ -146,6 +147,7 @@ void Add(Hasher& hasher, const PhotographPtr& photograph) {
   AddToHash(hasher.Tag(kPhotograph), *photograph);
 }
 void Add(Hasher& hasher, const TracePtr& trace) { AddToHash(hasher.Tag(kTrace), *trace); }
+void Add(Hasher& hasher, const FacadePtr& facade) { AddToHash(hasher.Tag(kFacade), *facade); }
 
 Hash128 HashOf(const Element& element) {
   Hasher hasher;
@@ -203,7 +205,15 @@ ElementPtr WithName(const Element& element, std::string name) {
 ElementPtr WithGeometry(const Element& element, Geometry geometry) {
   Element copy = element;
   copy.geometry = std::move(geometry);
+  copy.moved = nullptr;
   return Hashed(std::move(copy));
+}
+
+ElementPtr WithMoved(const Element& element, std::vector<Moved> moved) {
+  Element copy = element;
+  copy.moved =
+      moved.empty() ? nullptr : std::make_shared<const std::vector<Moved>>(std::move(moved));
+  return std::make_shared<const Element>(std::move(copy));
 }
 
 ElementPtr WithAttributes(const Element& element, AttributesPtr attributes) {
@@ -218,7 +228,8 @@ ElementPtr WithAttributes(const Element& element, AttributesPtr attributes) {
 
 bool IsBuilt(const Element& element) {
   return !std::holds_alternative<PhotographPtr>(element.geometry) &&
-         !std::holds_alternative<TracePtr>(element.geometry);
+         !std::holds_alternative<TracePtr>(element.geometry) &&
+         !std::holds_alternative<FacadePtr>(element.geometry);
 }
 
 int DepthOf(const Element& element) {
@@ -283,6 +294,7 @@ std::string TypeOf(const Element& element) {
       return IsStatedCamera(*photograph) ? "camera" : "photograph";
     }
     std::string operator()(const TracePtr& trace) const { return model::TypeOf(*trace); }
+    std::string operator()(const FacadePtr&) const { return "facade"; }
   };
   return std::visit(Type{}, element.geometry);
 }

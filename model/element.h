@@ -17,6 +17,7 @@
 #include "geom/solid.h"
 #include "geom/stroke_font.h"
 #include "geom/surface.h"
+#include "model/facade.h"
 #include "model/hash.h"
 #include "model/photograph.h"
 #include "model/value.h"
@@ -136,8 +137,19 @@ using TextPtr = std::shared_ptr<const geom::Text>;
 using InstancePtr = std::shared_ptr<const Instance>;
 using PhotographPtr = std::shared_ptr<const Photograph>;
 using TracePtr = std::shared_ptr<const Trace>;
+using FacadePtr = std::shared_ptr<const Facade>;
 using Geometry = std::variant<Point, CurvePtr, SurfacePtr, RegionPtr, SolidPtr, TextPtr, GroupPtr,
-                              InstancePtr, PhotographPtr, TracePtr>;
+                              InstancePtr, PhotographPtr, TracePtr, FacadePtr>;
+
+// How an element lies where one of the sources that it hangs on is a step from where it is taken to
+// be, to either side: the differences are its derivatives by it. What was drawn through a
+// photograph has one for each source of the camera, of the facade and of its dots.
+struct Moved {
+  SourceId source;
+  double step;  // in SI
+  Geometry forward, back;
+};
+using MovedPtr = std::shared_ptr<const std::vector<Moved>>;
 
 struct Element {
   ElementId id = kNoElement;
@@ -146,6 +158,7 @@ struct Element {
   std::shared_ptr<const std::string> name;  // may be null
   Geometry geometry;
   geom::Tolerance tolerance = {};  // in force when it was made: for its facets, not in the hash
+  MovedPtr moved = nullptr;        // by source; null if it hangs on none; not in the hash
 
   std::string_view name_or_empty() const { return name ? std::string_view(*name) : ""; }
 };
@@ -156,13 +169,14 @@ ElementPtr MakeElement(ElementId id, Geometry geometry, AttributesPtr attributes
 ElementPtr WithId(const Element& element, ElementId id);  // members of a group keep theirs
 ElementPtr WithName(const Element& element, std::string name);
 ElementPtr WithAttributes(const Element& element, AttributesPtr attributes);  // members too
-ElementPtr WithGeometry(const Element& element, Geometry geometry);
+ElementPtr WithGeometry(const Element& element, Geometry geometry);  // hangs on no source then
+ElementPtr WithMoved(const Element& element, std::vector<Moved> moved);
 // The group with `map` of each member, its names following. A member whose map is null leaves it.
 GroupPtr MapMembers(const Group& group, const std::function<ElementPtr(const ElementPtr&)>& map);
 // Groups member by member; an instance by its transform alone.
 ElementPtr Transformed(const Element& element, const geom::Affine& target_from_source);
 
-// Whether it is a part of what is built: no photograph, camera or trace.
+// Whether it is a part of what is built: no photograph, camera, trace or facade.
 bool IsBuilt(const Element& element);
 
 // How many groups and placed elements lie in one another, the element included: 0 for one that has
@@ -170,7 +184,7 @@ bool IsBuilt(const Element& element);
 int DepthOf(const Element& element);
 
 // "point", "line", "arc", "circle", "line string", "shape", "curve", "chain", "surface", "region",
-// "solid", "text", "group", "photograph", "camera", "trace edge" …, or an instance's words.
+// "solid", "text", "group", "photograph", "camera", "trace edge" …, "facade", or an instance's words.
 std::string TypeOf(const Element& element);
 
 // Measures. Nothing where the element has none of the kind: a point has no length, an open curve

@@ -211,6 +211,11 @@ std::optional<double> Volume(const Element& element) {
 geom::Nearest NearestPoint(const Element& element, const geom::Vec3& p) {
   geom::Nearest best;
   best.distance_m = std::numeric_limits<double>::infinity();
+  if (const auto* facade = std::get_if<FacadePtr>(&element.geometry)) {
+    const geom::Frame& plane = (*facade)->plane;
+    const double height_m = plane.z().dot(p - plane.origin);
+    return {p - height_m * plane.z(), std::abs(height_m), 0};
+  }
   ForEachShape(element, [&](const auto& shape, const geom::Affine& world, const Element&) {
     const geom::Nearest nearest = NearestInWorld(shape, world, p);
     if (nearest.distance_m < best.distance_m) best = nearest;

@@ -29,6 +29,7 @@ Hash128 HashOf(const Settings& settings) {
   hasher.Integer(settings.tolerance.facets_per_turn).Length(settings.locate_tolerance_m);
   hasher.Ratio(settings.noise_px).Text(settings.unit);
   hasher.Point(settings.plane.origin).Direction(settings.plane.x).Direction(settings.plane.y);
+  if (settings.facade) hasher.Hash(settings.facade->hash);
   return hasher.Finish();
 }
 

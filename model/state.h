@@ -48,6 +48,7 @@ struct Settings {
   double noise_px = 0.5;                  // noise; 0: estimated from the residuals
   std::string unit = "m";                 // un, for messages
   geom::Frame plane;                      // the active system
+  ElementPtr facade = nullptr;            // the one that dots are drawn on, when it was set
 };
 using SettingsPtr = std::shared_ptr<const Settings>;
 Hash128 HashOf(const Settings& settings);

@@ -37,13 +37,22 @@ struct TransformedGeometry {
   // What is on a picture stays there.
   Geometry operator()(const PhotographPtr& photograph) const { return photograph; }
   Geometry operator()(const TracePtr& trace) const { return trace; }
+  Geometry operator()(const FacadePtr& facade) const { return facade; }
 };
 
 }  // namespace
 
 ElementPtr Transformed(const Element& element, const geom::Affine& target_from_source) {
-  return WithGeometry(element,
-                      std::visit(TransformedGeometry{target_from_source}, element.geometry));
+  const auto transformed = [&](const Geometry& geometry) {
+    return std::visit(TransformedGeometry{target_from_source}, geometry);
+  };
+  const ElementPtr target = WithGeometry(element, transformed(element.geometry));
+  if (!element.moved) return target;
+  std::vector<Moved> moved;
+  for (const auto& [source, step, forward, back] : *element.moved) {
+    moved.push_back({source, step, transformed(forward), transformed(back)});
+  }
+  return WithMoved(*target, std::move(moved));
 }
 
 }  // namespace tranos::model

@@ -89,6 +89,7 @@ struct FacetMaker {
   geom::Result<Facets> operator()(const model::InstancePtr&) const { return Facets{}; }
   geom::Result<Facets> operator()(const model::PhotographPtr&) const { return Facets{}; }
   geom::Result<Facets> operator()(const model::TracePtr&) const { return Facets{}; }
+  geom::Result<Facets> operator()(const model::FacadePtr&) const { return Facets{}; }
 };
 
 }  // namespace

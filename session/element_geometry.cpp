@@ -88,6 +88,10 @@ class GeometryWriter {
     out_->Key("noise_px").Ratio(trace->noise_px).Key("facade").String(trace->facade);
     if (trace->samples > 0) out_->Key("samples").Ratio(trace->samples);
   }
+  void operator()(const model::FacadePtr& facade) {
+    out_->Key("facade").String(facade->name);
+    Frame(facade->plane, out_);
+  }
   void operator()(const geom::Line& line) {
     out_->Key("start").Point(line.start).Key("end").Point(line.end);
   }

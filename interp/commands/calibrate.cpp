@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "interp/commands/drawing.h"
 #include "interp/commands/families.h"
 #include "interp/commands/firing.h"
 #include "interp/commands/photographs.h"
@@ -151,6 +152,18 @@ CommandResult RecoverCamera(const State& state, const Answers& answers) {
   for (int i = 0; i < camera::kParameters && estimate.covariance.size() > 0; ++i) {
     estimate.parameters[i].sigma = std::sqrt(std::max(estimate.covariance(i, i), 0.0));
   }
+  std::swap(estimate.facades, best->facades);
+  state.model.ForEach([&](const model::ElementPtr& element) {
+    const auto* facade = std::get_if<model::FacadePtr>(&element->geometry);
+    if (!facade || (*facade)->solved < 0) return;
+    const auto& [name, plane, solved] = **facade;
+    const auto index = static_cast<std::size_t>(solved);
+    if (index >= estimate.facades.size()) return;
+    const camera::FacadeEstimate& now = estimate.facades[index];
+    fired.edit.replaced.push_back(
+        model::WithMoved(*model::WithGeometry(*element, FacadeGeometry(name, now.plane, solved)),
+                         MovedFacade(name, now, solved)));
+  });
   changed.estimate = std::make_shared<const camera::Estimate>(std::move(estimate));
   fired.edit.replaced.push_back(WithPhotograph(**found, std::move(changed)));
   return fired;

@@ -51,6 +51,7 @@ class Outliner {
   void operator()(const model::InstancePtr&) const {}  // no leaf
   void operator()(const model::PhotographPtr&) const {}
   void operator()(const model::TracePtr&) const {}
+  void operator()(const model::FacadePtr&) const {}
 
  private:
   Vec2 Seen(const Vec3& p) const { return plane_.ToLocal(world_from_leaf_ * p).head<2>(); }

@@ -121,8 +121,7 @@ bool IsOfPhotograph(const model::Element& element) {
     return std::any_of((*group)->members.begin(), (*group)->members.end(),
                        [](const ElementPtr& member) { return IsOfPhotograph(*member); });
   }
-  return std::holds_alternative<model::PhotographPtr>(element.geometry) ||
-         std::holds_alternative<model::TracePtr>(element.geometry);
+  return !model::IsBuilt(element);
 }
 
 }  // namespace

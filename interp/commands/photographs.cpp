@@ -94,6 +94,19 @@ tl::expected<camera::PhotoPtr, CommandError> PixelsOf(const model::Element& phot
                .help = "photographs are PNG, JPEG or TIFF"});
 }
 
+std::optional<CommandError> OutsidePhotograph(const camera::Frame& frame, const geom::Vec2& dot_px,
+                                              Code code) {
+  constexpr double kBeyondBorder = 0.25;
+  const geom::Vec2 size_px = frame.size_px.cast<double>();
+  const geom::Vec2 beyond = (-dot_px).cwiseMax(dot_px - size_px).cwiseMax(0);
+  if ((beyond.array() <= kBeyondBorder * size_px.array()).all()) return std::nullopt;
+  return CommandError{
+      .code = code,
+      .message = fmt::format("the dot {:g},{:g} is outside the photograph", dot_px.x(), dot_px.y()),
+      .label =
+          fmt::format("the photograph is {} by {} pixels", frame.size_px.x(), frame.size_px.y())};
+}
+
 CommandError NoCameraYet(const model::Element& photograph) {
   return {.code = Code::kNotDetermined,
           .message = fmt::format("{} has no camera, or one that is not determined",

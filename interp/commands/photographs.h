@@ -21,6 +21,10 @@ model::ElementPtr WithPhotograph(const model::Element& element, model::Photograp
 CommandError NoCameraYet(const model::Element& photograph);
 // Width and height in mm of a negative of which nothing is said: 36 mm along its longer side.
 geom::Vec2 UnstatedFormat(const Eigen::Vector2i& size_px);
+// What is said of a dot that lies more than a quarter of the photograph's size beyond its border,
+// further than an edge that leaves the picture is followed.
+std::optional<CommandError> OutsidePhotograph(const camera::Frame& frame, const geom::Vec2& dot_px,
+                                              Code code);
 // What is seen on a photograph: upright, 8 bits a channel, the same object however often it is
 // asked for in a run. Errors: kNoPhotograph (a stated camera, a damaged file), kCannotRead (a
 // replay, which has no pixels).

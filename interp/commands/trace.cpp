@@ -24,21 +24,12 @@ using Kind = Trace::Kind;
 
 Where AtDot(std::size_t index) { return {Where::kPoint, static_cast<int>(index), {}}; }
 
-// A photograph's edge may be traced a little beyond its border, where an edge leaves the picture.
-constexpr double kBeyondBorder = 0.25;
-
 std::optional<CommandError> CheckDots(const Answers& answers, const camera::Frame& frame) {
-  const Vec2 size_px = frame.size_px.cast<double>();
   for (std::size_t i = 0; i < answers.points.size(); ++i) {
     const Vec2 dot = answers.points[i].head<2>();
-    const Vec2 beyond = (-dot).cwiseMax(dot - size_px).cwiseMax(0);
-    if ((beyond.array() > kBeyondBorder * size_px.array()).any()) {
-      return CommandError{
-          .code = Code::kBadTrace,
-          .message = fmt::format("the dot {:g},{:g} is outside the photograph", dot.x(), dot.y()),
-          .label = fmt::format("the photograph is {} by {} pixels", frame.size_px.x(),
-                               frame.size_px.y()),
-          .where = AtDot(i)};
+    if (auto error = OutsidePhotograph(frame, dot, Code::kBadTrace)) {
+      error->where = AtDot(i);
+      return error;
     }
     for (std::size_t j = 0; j < i; ++j) {
       if ((answers.points[j].head<2>() - dot).norm() > 1e-6) continue;

@@ -88,7 +88,7 @@ Edit AnyEdit(const State& state) {
   const auto* group = std::get_if<GroupPtr>(&one->geometry);
   if (kind == 3) {
     for (const ElementId id : some) {
-      edit.replaced.push_back(Transformed(*state.model.Current(id), Moved(1)));
+      edit.replaced.push_back(Transformed(*state.model.Current(id), Translation(1)));
     }
   } else if (kind == 4) {
     edit.deleted = some;
@@ -97,14 +97,14 @@ Edit AnyEdit(const State& state) {
   } else if (kind == 6) {
     edit = Grouping(state, some);
   } else if (kind == 7) {
-    edit.added.push_back(Transformed(*one, Moved(0, 1)));
+    edit.added.push_back(Transformed(*one, Translation(0, 1)));
   } else if (kind == 8 && group) {
     edit.deleted = {one->id};
     edit.released = (*group)->members;
   } else if (!members.empty()) {
     const ElementId member = *rc::gen::elementOf(members);
     if (*rc::gen::arbitrary<bool>()) {
-      edit.replaced = {Transformed(*state.model.Current(member), Moved(0, 0, 1))};
+      edit.replaced = {Transformed(*state.model.Current(member), Translation(0, 0, 1))};
     } else {
       edit.deleted = {member};
     }
@@ -167,7 +167,7 @@ TEST(Apply, MovingAGroupMovesWhatItsMembersAre) {
   state = Apply(state, Grouping(state, {0, 1})).state;
   EXPECT_EQ(state.model.live, 1u);
   Edit edit;
-  edit.replaced = {Transformed(*state.model.Current(2), Moved(10))};
+  edit.replaced = {Transformed(*state.model.Current(2), Translation(10))};
   state = Apply(state, edit).state;
   EXPECT_EQ(BoundingBox(*state.model.Current(1)).min.x(), 15);
   EXPECT_EQ(state.model.entries[1].standing, Standing::kMember);
@@ -180,7 +180,7 @@ TEST(Apply, ChangedMemberChangesEveryGroupAroundIt) {
   state = Apply(state, Grouping(state, {0, 1})).state;
   state = Apply(state, Grouping(state, {2})).state;
   Edit edit;
-  edit.replaced = {Transformed(*state.model.Current(1), Moved(1))};
+  edit.replaced = {Transformed(*state.model.Current(1), Translation(1))};
   state = Apply(state, edit).state;
   EXPECT_EQ(BoundingBox(*state.model.Current(3)).max.x(), 6);
   edit = {};
@@ -193,7 +193,7 @@ TEST(Apply, ChangedMemberChangesEveryGroupAroundIt) {
 TEST(Apply, CopyOfAGroupHasMembersOfItsOwn) {
   State state = With({}, {MakePoint(0), MakePoint(5)});
   state = Apply(state, Grouping(state, {0, 1})).state;
-  state = With(state, {Transformed(*state.model.Current(2), Moved(0, 1))});
+  state = With(state, {Transformed(*state.model.Current(2), Translation(0, 1))});
   const auto& copies = std::get<GroupPtr>(state.model.Current(3)->geometry)->members;
   EXPECT_EQ(copies[0]->id, 4u);
   EXPECT_EQ(copies[1]->id, 5u);

@@ -42,7 +42,7 @@ TEST(Element, TypesHaveTheirWords) {
   EXPECT_EQ(TypeOf(*MakeCurve(geom::Chain{})), "chain");
   EXPECT_EQ(TypeOf(*MakeRegion({geom::Circle{{}, 1}})), "region");
   EXPECT_EQ(TypeOf(*MakeGroupOf({})), "group");
-  EXPECT_EQ(TypeOf(*MakeInstance({}, Moved(0))), "arch");
+  EXPECT_EQ(TypeOf(*MakeInstance({}, Translation(0))), "arch");
 }
 
 TEST(Element, EachChangeOfGeometryChangesTheHash) {
@@ -66,9 +66,9 @@ TEST(Element, EachChangeOfGeometryChangesTheHash) {
       MakeRegion({geom::Circle{{}, 2}, geom::Circle{{}, 1}}),
       MakeGroupOf({MakePoint(0)}),
       MakeGroupOf({MakePoint(1)}),
-      MakeInstance({MakePoint(0)}, Moved(0)),
-      MakeInstance({MakePoint(0)}, Moved(1)),
-      MakeInstance({MakePoint(1)}, Moved(0))};
+      MakeInstance({MakePoint(0)}, Translation(0)),
+      MakeInstance({MakePoint(0)}, Translation(1)),
+      MakeInstance({MakePoint(1)}, Translation(0))};
   std::set<Hash128> hashes;
   for (const ElementPtr& element : different) hashes.insert(element->hash);
   EXPECT_EQ(hashes.size(), different.size());
@@ -90,9 +90,9 @@ TEST(Element, PartsInheritWhatTheyDoNotOwn) {
   const ElementPtr group = WithAttributes(*MakeGroupOf({}), Coloured(9, Attributes::kColour));
   const ElementPtr filled = WithGeometry(*group, MakeGroupOf({plain, own})->geometry);
   EXPECT_EQ(LeafColours(*filled), (std::vector<std::uint32_t>{1, 2}));
-  const ElementPtr placed = MakeInstance({plain, own, filled}, Moved(0), Coloured(5));
+  const ElementPtr placed = MakeInstance({plain, own, filled}, Translation(0), Coloured(5));
   EXPECT_EQ(LeafColours(*placed), (std::vector<std::uint32_t>{5, 2, 5, 2}));
-  const ElementPtr nested = MakeInstance({placed}, Moved(0), Coloured(7));
+  const ElementPtr nested = MakeInstance({placed}, Translation(0), Coloured(7));
   EXPECT_EQ(LeafColours(*nested), (std::vector<std::uint32_t>{7, 2, 7, 2}));
 }
 
@@ -100,14 +100,14 @@ TEST(Element, OwningASettingIsPartOfThePrototype) {
   const ElementPtr plain = MakePoint(0);
   const ElementPtr own = WithAttributes(*plain, Coloured(0, Attributes::kColour));
   EXPECT_EQ(plain->hash, own->hash);
-  EXPECT_NE(MakeInstance({plain}, Moved(0))->hash, MakeInstance({own}, Moved(0))->hash);
+  EXPECT_NE(MakeInstance({plain}, Translation(0))->hash, MakeInstance({own}, Translation(0))->hash);
 }
 
 TEST(Element, TransformedGroupsCarryTheirNames) {
   const ElementPtr member = MakePoint(1), gone = MakePoint(2);
   const ElementPtr group =
       MakeGroupOf({member}, {{"kept", {member}, false}, {"consumed", {gone}, false}});
-  const ElementPtr transformed = Transformed(*group, Moved(10));
+  const ElementPtr transformed = Transformed(*group, Translation(10));
   const Group& moved = *std::get<GroupPtr>(transformed->geometry);
   EXPECT_EQ(moved.names[0].elements[0], moved.members[0]);
   EXPECT_EQ(BoundingBox(*moved.members[0]).min.x(), 11);
@@ -115,8 +115,8 @@ TEST(Element, TransformedGroupsCarryTheirNames) {
 }
 
 TEST(Element, TransformedInstancesShareTheirPrototype) {
-  const ElementPtr instance = MakeInstance({MakePoint(1)}, Moved(1));
-  const ElementPtr moved = Transformed(*instance, Moved(0, 2));
+  const ElementPtr instance = MakeInstance({MakePoint(1)}, Translation(1));
+  const ElementPtr moved = Transformed(*instance, Translation(0, 2));
   EXPECT_EQ(std::get<InstancePtr>(moved->geometry)->prototype,
             std::get<InstancePtr>(instance->geometry)->prototype);
   EXPECT_EQ(BoundingBox(*moved).max, geom::Vec3(2, 2, 0));
@@ -174,8 +174,8 @@ TEST(Depth, CountsGroupsAndPlacedElementsInOneAnother) {
   EXPECT_EQ(DepthOf(*point), 0);
   const ElementPtr group = MakeGroupOf({MakeGroupOf({point}), point});
   EXPECT_EQ(DepthOf(*group), 2);
-  EXPECT_EQ(DepthOf(*Transformed(*group, Moved(1))), 2);
-  EXPECT_EQ(DepthOf(*MakeInstance({point, group}, Moved(1))), 3);
+  EXPECT_EQ(DepthOf(*Transformed(*group, Translation(1))), 2);
+  EXPECT_EQ(DepthOf(*MakeInstance({point, group}, Translation(1))), 3);
 }
 
 }  // namespace

@@ -16,7 +16,7 @@ ElementPtr MakeSurface(geom::Surface surface) {
 }
 
 geom::Affine Linear(const Eigen::Matrix3d& linear, const Vec3& translation = Vec3::Zero()) {
-  geom::Affine affine = Moved(translation.x(), translation.y(), translation.z());
+  geom::Affine affine = Translation(translation.x(), translation.y(), translation.z());
   affine.linear() = linear;
   return affine;
 }

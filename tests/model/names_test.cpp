@@ -54,7 +54,7 @@ TEST(Names, OfAnOuterScopeAreRehashedWhenPutBack) {
   state.drawing.names.Bind(0, 0, state.model.entries);
   Names outer = std::exchange(state.drawing.names, {});
   Edit edit;
-  edit.replaced = {Transformed(*state.model.Current(0), Moved(1))};
+  edit.replaced = {Transformed(*state.model.Current(0), Translation(1))};
   state = Apply(state, edit).state;
   const Hash128 stale = outer.hash();
   outer.Rehash(state.model.entries);

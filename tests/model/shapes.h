@@ -46,7 +46,7 @@ inline ElementPtr MakeInstance(std::vector<ElementPtr> parts, const geom::Affine
       std::move(attributes), nullptr, {});
 }
 
-inline geom::Affine Moved(double x, double y = 0, double z = 0) {
+inline geom::Affine Translation(double x, double y = 0, double z = 0) {
   geom::Affine affine = geom::Affine::Identity();
   affine.translation() = geom::Vec3(x, y, z);
   return affine;

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "interp/commands/drawing.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "interp/commands/firing.h"
+#include "interp/commands/photographs.h"
+
+namespace tranos::interp {
+
+using geom::Vec2;
+using geom::Vec3;
+using model::ElementPtr;
+using model::FacadeOf;
+using model::State;
+
+namespace {
+
+// The largest deviation in any direction, by the terms of the camera, the facade and the dot.
+double LargestDeviation(const Eigen::Matrix3d& covariance) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance, Eigen::EigenvaluesOnly);
+  return std::sqrt(std::max(0.0, solver.eigenvalues()[2]));
+}
+
+// How the point moves with what a facade hangs on.
+void AddFacadeTerms(const model::Element& facade, const camera::DrawnPoint& drawn,
+                    std::map<model::SourceId, Vec3>* terms) {
+  if (!facade.moved) return;
+  const Vec3 from_origin = drawn.point_m - FacadeOf(facade).plane.origin;
+  const Vec3 normal = FacadeOf(facade).plane.z();
+  for (const auto& [source, step, forward, back] : *facade.moved) {
+    const geom::Frame& a = std::get<model::FacadePtr>(forward)->plane;
+    const geom::Frame& b = std::get<model::FacadePtr>(back)->plane;
+    const double offset = normal.dot(a.origin - b.origin) - (a.z() - b.z()).dot(from_origin);
+    terms->try_emplace(source, Vec3::Zero()).first->second += offset / (2 * step) * drawn.by_offset;
+  }
+}
+
+}  // namespace
+
+CommandError BadDot(const geom::Error& error, const model::Facade& facade, const Vec2& dot_px) {
+  const std::string name = Printable(facade.name);
+  const bool is_edge_on = error.detail == "the camera stands in its plane";
+  return {.code = Code::kBadDot,
+          .message = fmt::format("the dot {:g},{:g} is of no point of the facade `{}`: {}",
+                                 dot_px.x(), dot_px.y(), name, error.detail),
+          .label = is_edge_on ? "the facade is seen edge-on" : "not on this facade",
+          .help = is_edge_on ? "draw it through another photograph"
+                             : "`set facade` chooses the facade that the dot lies on"};
+}
+
+tl::expected<ElementPtr, CommandError> FacadeNamed(const State& state, std::string_view name,
+                                                   Where where) {
+  if (ElementPtr found = model::FindFacade(state.model, name)) return found;
+  const std::vector<std::string> known = model::FacadeNames(state.model);
+  const auto meant = DidYouMean(std::string(name), known);
+  std::string list;
+  for (const std::string& facade : known) list += (list.empty() ? "`" : ", `") + facade + "`";
+  return Fail({.code = Code::kNoFacade,
+               .message = fmt::format("no facade is called `{}`", Printable(name)),
+               .label = known.empty() ? "there is no facade yet" : "known are " + Printable(list),
+               .help = meant ? "did you mean `" + *meant + "`?"
+                             : "`trace rectangle … facade=NAME` declares one that `calibrate` "
+                               "finds; `construct facade` and `recover facade` make one",
+               .where = where});
+}
+
+model::Geometry FacadeGeometry(std::string name, const geom::Frame& plane, int solved) {
+  return std::make_shared<const model::Facade>(model::Facade{std::move(name), plane, solved});
+}
+
+std::vector<model::Moved> MovedFacade(const std::string& name, const camera::FacadeEstimate& facade,
+                                      int solved) {
+  std::vector<model::Moved> moved;
+  const geom::Frame& plane = facade.plane;
+  for (Eigen::Index j = 0; j < facade.deviations.cols(); ++j) {
+    const Vec3 by = facade.deviations.col(j);
+    if (by.isZero(0)) continue;
+    const auto beside = [&](double step) {
+      const Vec3 turn = step * (by.y() * plane.x + by.z() * plane.y);
+      const Eigen::AngleAxisd turned(turn.norm(),
+                                     turn.norm() > 0 ? Vec3(turn.normalized()) : plane.x);
+      const geom::Frame frame{plane.origin + step * by.x() * plane.z(), turned * plane.x,
+                              turned * plane.y};
+      return FacadeGeometry(name, frame, solved);
+    };
+    moved.push_back({static_cast<model::SourceId>(j), model::kMovedBy, beside(model::kMovedBy),
+                     beside(-model::kMovedBy)});
+  }
+  return moved;
+}
+
+tl::expected<ElementPtr, CommandError> CameraMeant(const State& state, const Answers& answers) {
+  auto photograph = PhotographMeant(state, answers.Has("photo") ? answers : Answers{});
+  if (!photograph) return photograph;
+  const auto& estimate = PhotographOf(**photograph).estimate;
+  if (!estimate || !estimate->determined()) return Fail(NoCameraYet(**photograph));
+  return photograph;
+}
+
+double NoiseOf(const State& state, model::ElementId photograph) {
+  const double stated_px = state.drawing.settings->noise_px;
+  if (stated_px > 0) return stated_px;
+  const ElementPtr element = state.model.Current(photograph);
+  const auto& estimate = PhotographOf(*element).estimate;
+  return estimate && estimate->noise_px > 0 ? estimate->noise_px : 0.5;
+}
+
+tl::expected<PlacedPoint, CommandError> DrawDot(const State& state, const Vec2& dot_px,
+                                                const DotSource& source_of) {
+  const auto meant = CameraMeant(state, {});
+  if (!meant) return Fail(meant.error());
+  const model::Settings& settings = *state.drawing.settings;
+  const ElementPtr facade =
+      settings.facade ? state.model.Current(settings.facade->id) : ElementPtr{};
+  if (!facade) {
+    return Fail({.code = Code::kNoFacade,
+                 .message = "a dot is drawn on a facade, and none is set",
+                 .help = "set facade front"});
+  }
+  const model::Photograph& photograph = PhotographOf(**meant);
+  const camera::Estimate& estimate = *photograph.estimate;
+  if (auto error = OutsidePhotograph(photograph.frame, dot_px, Code::kBadDot)) return Fail(*error);
+  const auto drawn =
+      camera::DrawOnto(estimate.camera, photograph.frame, FacadeOf(*facade).plane, dot_px);
+  if (!drawn) return Fail(BadDot(drawn.error(), FacadeOf(*facade), dot_px));
+  const double noise_px = NoiseOf(state, (*meant)->id);
+  std::map<model::SourceId, Vec3> terms;
+  for (Eigen::Index j = 0; j < estimate.deviations.cols(); ++j) {
+    const Vec3 term = drawn->by_camera * estimate.deviations.block<camera::kParameters, 1>(0, j);
+    if (!term.isZero(0)) terms[static_cast<model::SourceId>(j)] = term;
+  }
+  AddFacadeTerms(*facade, *drawn, &terms);
+  Eigen::Matrix3d covariance = noise_px * noise_px * drawn->by_dot * drawn->by_dot.transpose();
+  for (const auto& [source, term] : terms) covariance += term * term.transpose();
+  const double sigma_m = LargestDeviation(covariance);
+  const double away_m = (drawn->point_m - estimate.camera.position_m()).norm();
+  if (!(sigma_m <= camera::kMostUncertain * away_m)) {
+    return Fail({.code = Code::kBadDot,
+                 .message = fmt::format(
+                     "the point of the facade `{}` that the dot {:g},{:g} is of is uncertain by "
+                     "{:.3g} m, {:.3g} m from the camera",
+                     Printable(FacadeOf(*facade).name), dot_px.x(), dot_px.y(), sigma_m, away_m),
+                 .label = "the facade is nearly edge-on here",
+                 .help = "draw it through another photograph, or nearer to the camera"});
+  }
+  PlacedPoint placed{drawn->point_m};
+  if (const auto source = source_of((*meant)->id, dot_px, noise_px)) {
+    placed.terms.assign(terms.begin(), terms.end());
+    for (model::SourceId k = 0; k < 2; ++k)
+      placed.terms.emplace_back(*source + k, drawn->by_dot.col(k));
+    std::sort(placed.terms.begin(), placed.terms.end(),
+              [](const auto& a, const auto& b) { return a.first < b.first; });
+  }
+  return placed;
+}
+
+}  // namespace tranos::interp
