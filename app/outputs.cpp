@@ -5,8 +5,10 @@
 #include <map>
 #include <new>
 
+#include "app/orthophoto_json.h"
 #include "app/photo_truth.h"
 #include "output/camera_files.h"
+#include "output/orthophoto.h"
 #include "output/png.h"
 #include "output/write.h"
 
@@ -47,7 +49,9 @@ std::vector<Request> RequestsOf(const interp::ScriptResult& result, const std::s
   };
   const std::string model_path = stem + ".glb";
   const auto end = static_cast<std::uint32_t>(result.sources->files[0].text.size());
-  add(model::ExportRequest{outcome.state.model, model_path}, model_path, {0, end, end});
+  const bool photographs = outcome.state.drawing.view->photo;
+  add(model::ExportRequest{outcome.state.model, model_path, photographs}, model_path,
+      {0, end, end});
   all.back().label = "at its end the model is written";
   int picture = 0;
   for (std::size_t i = 0; i < outcome.outputs.size(); ++i) {
@@ -73,7 +77,7 @@ struct Maker {
   int threads;
 
   output::Result<Files> operator()(const model::ExportRequest& request) const {
-    return One(output::ExportOf(request.model, request.file));
+    return One(output::ExportOf(request, threads));
   }
   output::Result<Files> operator()(const model::RenderRequest& request) const {
     return One(output::PictureFileOf(request, threads));
@@ -87,6 +91,14 @@ struct Maker {
     if (files) {
       files->push_back({TruthPath(path), PhotoTruthJson(*request.taken_as, path)});
     }
+    return files;
+  }
+
+  output::Result<Files> operator()(const model::OrthophotoRequest& request) const {
+    const auto made = output::Rectify(*request.made, threads);
+    if (!made) return tl::unexpected(made.error());
+    auto files = One(output::PngOf(made->picture));
+    if (files) files->push_back({TruthPath(path), OrthophotoJson(*request.made, made->seen, path)});
     return files;
   }
 
@@ -119,7 +131,8 @@ tl::expected<Files, Diagnostic> MadeBy(const Request& request, int threads) {
 
 // All that it writes, before any of it is made.
 tl::expected<std::vector<std::string>, Diagnostic> PathsOf(const Request& request) {
-  if (std::holds_alternative<model::PhotoFileRequest>(request.what)) {
+  if (std::holds_alternative<model::PhotoFileRequest>(request.what) ||
+      std::holds_alternative<model::OrthophotoRequest>(request.what)) {
     return std::vector{request.path, TruthPath(request.path)};
   }
   const auto* camera = std::get_if<model::CameraRequest>(&request.what);

@@ -28,9 +28,9 @@ std::vector<Command> Collect() {
                             PlaneCommands(),        ViewCommands(),
                             OutputCommands(),       PhotographCommands(),
                             RenderPhotoCommands(),  FacadeCommands(),
-                            PriorCommands(),        TraceCommands(),
-                            CalibrateCommands(),    HistoryCommands(),
-                            LaterCommands()}) {
+                            OrthophotoCommands(),   PriorCommands(),
+                            TraceCommands(),        CalibrateCommands(),
+                            HistoryCommands(),      LaterCommands()}) {
     all.insert(all.end(), family.begin(), family.end());
   }
   std::stable_sort(all.begin(), all.end(), [](const Command& a, const Command& b) {

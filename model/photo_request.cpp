@@ -30,6 +30,7 @@ const Model* ModelOf(const OutputRequest& request) {
     const Model* operator()(const ExportRequest& exported) const { return &exported.model; }
     const Model* operator()(const PhotoFileRequest& photo) const { return &photo.taken_as->model; }
     const Model* operator()(const CameraRequest&) const { return nullptr; }
+    const Model* operator()(const OrthophotoRequest& o) const { return o.made->standing.get(); }
   } model_of;
   return std::visit(model_of, request);
 }

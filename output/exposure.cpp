@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "output/chance.h"
+#include "output/eye.h"
 #include "output/parallel.h"
 #include "output/parts.h"
 #include "output/terrain.h"
@@ -25,7 +26,6 @@ constexpr float kSky = 0.5f;          // that of the whole sky on a face turned 
 constexpr float kBounce = 0.26f;      // of the sky's, what comes from other faces instead
 constexpr float kSunRadius = 0.008f;  // softens the edges of shadows; in radians
 constexpr float kHaze_m = 2500;       // after which a face has lost two thirds of its contrast
-constexpr double kNearest_m = 0.5;    // facets are as fine as a pixel at this distance needs
 constexpr float kOffset = 2e-4f;      // of the distance: where rays from a face begin
 constexpr int kBlock = 4;             // a packet is a square of samples
 constexpr int kBand_px = 16;          // rows of pixels that are made at a time
@@ -63,17 +63,10 @@ struct World {
   }
 };
 
-// What a pixel shows of the nearest part of the box.
-double FinestPixel(const geom::Box& box, const camera::Camera& camera, const Frame& frame) {
-  const Vec3 eye = camera.position_m();
-  const double near_m = box.empty() ? 10 : (eye.cwiseMax(box.min).cwiseMin(box.max) - eye).norm();
-  return std::max(near_m, kNearest_m) * frame.pitch_mm().minCoeff() / camera[camera::kFocal];
-}
-
 Result<World> WorldOf(const model::PhotoRequest& request, int threads) {
   Parts parts = VisibleParts(request.model, threads);
   geom::Box box = BoxInWorld(parts);
-  const double pixel_m = FinestPixel(box, request.camera, request.frame);
+  const double pixel_m = FinestPixel_m(box, request.camera, request.frame);
   if (auto error = MakeFacets(parts, 0.2 * pixel_m, threads)) {
     return tl::unexpected(*std::move(error));
   }

@@ -7,8 +7,6 @@
 #include "output/parallel.h"
 
 namespace tranos::output {
-namespace {
-
 using geom::Affine;
 using geom::Vec3;
 
@@ -23,8 +21,6 @@ std::shared_ptr<const RayMesh> RayMeshOf(const geom::Mesh& mesh, const Vec3& cen
   result->triangles = mesh.triangles;
   return result;
 }
-
-}  // namespace
 
 Parts VisibleParts(const model::Model& model, int threads) {
   Parts result;

@@ -39,6 +39,9 @@ struct Parts {
 // Everything on levels that are on, with boxes and without facets.
 Parts VisibleParts(const model::Model& model, int threads);
 
+// In single precision about a centre.
+std::shared_ptr<const RayMesh> RayMeshOf(const geom::Mesh& mesh, const geom::Vec3& centre);
+
 // Gives the part its facets and its mesh; as placed they deviate from it by `chord_m` at most.
 std::optional<Error> MakeFacets(Part& part, double chord_m);
 // All of them; the error is that of the first part that has one.

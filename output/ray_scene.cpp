@@ -203,11 +203,6 @@ HitPacket RayScene::FirstHitsFrom(const Eigen::Vector3f& point, const RayPacket&
   return Meet(Filled(point), directions);
 }
 
-void RayScene::DropOccluded(const RayPacket& rays, const Eigen::Vector3f& direction,
-                            LanePacket& lanes) const {
-  DropOccluded(rays, Filled(direction), lanes);
-}
-
 void RayScene::DropOccluded(const RayPacket& rays, const RayPacket& directions,
                             LanePacket& lanes) const {
   RTCIntersectContext context;

@@ -2,6 +2,7 @@
 #include "output/scene.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -206,12 +207,116 @@ struct PlacementDrawer {
   }
 };
 
-}  // namespace
+// A part as the eye sees it where it is placed: in picture space.
+Part SeenBy(const Eye& eye, const Part& part, const Affine& world_from_part) {
+  Part seen;
+  seen.element = part.element;
+  seen.facets = eye.InPicture(part.facets, world_from_part);
+  if (!seen.facets.mesh.triangles.empty()) {
+    seen.ray_mesh = RayMeshOf(seen.facets.mesh, Vec3::Zero());
+  }
+  return seen;
+}
+PartLines SeenBy(const Eye& eye, const PartLines& lines, const Part& seen,
+                 const Affine& world_from_part) {
+  return {EdgesOf(seen.facets.mesh), eye.InPicture(lines.feature_lines, world_from_part),
+          eye.InPicture(lines.form_lines, world_from_part)};
+}
 
-Result<Scene> SceneOf(const model::RenderRequest& request, int threads) {
+void AddTo(geom::Box& box, const Facets& facets) {
+  for (const auto& triangle : facets.mesh.triangles) {
+    for (const std::uint32_t corner : triangle) box.Add(facets.mesh.positions[corner]);
+  }
+  for (const auto& stroke : facets.strokes) {
+    for (const Vec3& p : stroke) box.Add(p);
+  }
+  for (const Vec3& p : facets.points) box.Add(p);
+}
+
+// The photograph's picture, if it is at hand.
+std::shared_ptr<const Picture> PictureOf(const model::Photograph& photograph) {
+  if (!photograph.picture) return nullptr;
+  const auto pixels = photograph.picture->Pixels();
+  if (!pixels) return nullptr;
+  return std::make_shared<const Picture>(
+      Picture{(*pixels)->width_px, (*pixels)->height_px, (*pixels)->rgb});
+}
+
+// Through the camera of a photograph.
+Result<Scene> SceneThrough(const model::Photograph& photograph, const model::RenderRequest& request,
+                           int threads) {
+  const camera::Camera& camera = photograph.estimate->camera;
+  Parts parts = VisibleParts(request.model, threads);
+  const geom::Box world = BoxInWorld(parts);
+  const double middle_m =
+      world.empty() ? 1 : std::max(0.1, camera::Project(camera, world.centre()).depth_m);
+  Scene scene;
+  const Eye& eye =
+      scene.eye.emplace(camera, photograph.frame, request.width_px, request.height_px, middle_m);
+  scene.camera.width_px = request.width_px;
+  scene.camera.height_px = request.height_px;
+  if (request.view.photo) scene.backdrop = PictureOf(photograph);
+  const double pixel_m = FinestPixel_m(world, camera, photograph.frame);
+  if (auto error = MakeFacets(parts, kChord_px * pixel_m, threads)) {
+    return tl::unexpected(*std::move(error));
+  }
+  const model::RenderMode mode = request.view.mode;
+  const std::vector<PartLines> lines = LinesOf(parts, mode, threads);
+  geom::Box box;
+  for (const Placement& placement : parts.placements) {
+    const Affine& world_from_part = placement.world_from_part;
+    const Part seen = SeenBy(eye, parts.parts[placement.part], world_from_part);
+    const bool has_lines = mode != model::RenderMode::kPhong;
+    const PartLines seen_lines =
+        has_lines ? SeenBy(eye, lines[placement.part], seen, world_from_part) : PartLines{};
+    AddTo(box, seen.facets);
+    PlacementDrawer{scene, mode, seen, seen_lines, placement, Affine::Identity()}.AddAll();
+  }
+  if (!box.empty()) {
+    scene.nearest = static_cast<float>(box.max.z());
+    scene.farthest = static_cast<float>(box.min.z());
+  }
+  return scene;
+}
+
+// A photograph that is shown as a plane at its frame.
+struct ShownPhotograph {
+  std::array<Vec3, 4> corners;
+  PicturePlane plane;
+};
+std::vector<ShownPhotograph> ShownPhotographs(const model::Model& model, const geom::Box& built) {
+  std::vector<ShownPhotograph> shown;
+  model.ForEach([&](const model::ElementPtr& element) {
+    const auto* photograph = std::get_if<model::PhotographPtr>(&element->geometry);
+    if (!photograph || !(*photograph)->estimate || !(*photograph)->estimate->determined()) return;
+    auto picture = PictureOf(**photograph);
+    if (!picture) return;
+    const double depth_m = FrameDepth_m(**photograph, built);
+    shown.push_back({FrameCorners(**photograph, depth_m),
+                     PlaneAtFrame(**photograph, depth_m, std::move(picture))});
+  });
+  return shown;
+}
+
+void AddPhotograph(const ShownPhotograph& shown, const Affine& picture_from_world, Scene* scene) {
+  geom::Mesh mesh;
+  for (const Vec3& corner : shown.corners) {
+    mesh.positions.push_back(corner - shown.corners[0]);
+    mesh.normals.push_back(shown.plane.normal);
+  }
+  mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+  Affine picture_from_mesh = picture_from_world;
+  picture_from_mesh.translation() = picture_from_world * shown.corners[0];
+  scene->surfaces.push_back(
+      {RayMeshOf(mesh, Vec3::Zero()), picture_from_mesh.affine().cast<float>()});
+  scene->surface_colours.push_back(Shade::Ones());
+  scene->planes.push_back(shown.plane);
+}
+
+// In a parallel projection.
+Result<Scene> SceneAlong(const model::RenderRequest& request, int threads) {
   const model::View& view = request.view;
-  const geom::Frame directions =
-      model::FrameOf(view.direction.empty() ? std::string_view("iso") : view.direction);
+  const geom::Frame directions = model::FrameOf(view, "iso");
   Parts parts = VisibleParts(request.model, threads);
   const double pixel_m = RoughPixel(parts, directions, request);
   if (auto error = MakeFacets(parts, kChord_px * pixel_m, threads)) {
@@ -219,7 +324,12 @@ Result<Scene> SceneOf(const model::RenderRequest& request, int threads) {
   }
   const std::vector<PartLines> lines = LinesOf(parts, view.mode, threads);
   Scene scene;
-  const geom::Box box = BoxInView(parts, directions);
+  geom::Box box = BoxInView(parts, directions);
+  std::vector<ShownPhotograph> photographs;
+  if (view.photo) photographs = ShownPhotographs(request.model, BoxInWorld(parts));
+  for (const ShownPhotograph& shown : photographs) {
+    for (const Vec3& corner : shown.corners) box.Add(directions.ToLocal(corner));
+  }
   scene.camera = FitCamera(directions, box, request.width_px, request.height_px);
   if (!box.empty()) {
     const double half_depth = 0.5 * (box.max.z() - box.min.z()) / scene.camera.pixel_m;
@@ -236,7 +346,42 @@ Result<Scene> SceneOf(const model::RenderRequest& request, int threads) {
                     picture_from_world * placement.world_from_part}
         .AddAll();
   }
+  for (const ShownPhotograph& shown : photographs) {
+    AddPhotograph(shown, picture_from_world, &scene);
+  }
   return scene;
+}
+
+}  // namespace
+
+Result<Scene> SceneOf(const model::RenderRequest& request, int threads) {
+  const model::ElementPtr& through = request.view.camera;
+  Result<Scene> scene =
+      through ? SceneThrough(*std::get<model::PhotographPtr>(through->geometry), request, threads)
+              : SceneAlong(request, threads);
+  if (!scene || !request.view.textured) return scene;
+  auto planes = OrthophotoPlanes(request.model, threads);
+  if (!planes) return tl::unexpected(planes.error());
+  scene->planes.insert(scene->planes.end(), planes->begin(), planes->end());
+  return scene;
+}
+
+Vec3 Scene::InWorld(const Eigen::Vector3f& in_picture) const {
+  if (eye) return eye->InWorld(in_picture.cast<double>());
+  return camera.picture_from_world().inverse() * in_picture.cast<double>();
+}
+
+Vec3 Scene::DirectionInWorld(const Eigen::Vector3f& direction) const {
+  if (eye) return eye->InWorldAlong(direction.cast<double>());
+  return camera.frame.ToWorld(direction.cast<double>()) - camera.frame.origin;
+}
+
+Eigen::Vector3f Scene::TowardsViewer(float x, float y) const {
+  return eye ? eye->TowardsViewer(x, y) : Eigen::Vector3f(Eigen::Vector3f::UnitZ());
+}
+
+Eigen::Vector3f Scene::Moving(const Eigen::Vector3f& from, const Eigen::Vector3f& direction) const {
+  return eye ? eye->Moving(from, direction) : direction;
 }
 
 }  // namespace tranos::output

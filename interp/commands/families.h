@@ -33,6 +33,7 @@ std::span<const Command> PriorCommands();
 std::span<const Command> TraceCommands();
 std::span<const Command> CalibrateCommands();
 std::span<const Command> FacadeCommands();  // set, construct, recover
+std::span<const Command> OrthophotoCommands();
 std::span<const Command> HistoryCommands();
 // Those that the language names and that are not carried out yet.
 std::span<const Command> LaterCommands();

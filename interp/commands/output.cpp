@@ -61,6 +61,17 @@ CommandResult Render(const State& state, const Answers& answers) {
            .where = {Where::kKey, 0, "size"}});
     }
     std::tie(request.width_px, request.height_px) = *size_px;
+  } else if (request.view.camera) {
+    const Eigen::Vector2i size_px = PhotographOf(*request.view.camera).frame.size_px;
+    if (size_px.maxCoeff() > kWidestPicture_px) {
+      return Fail(
+          {.code = Code::kOutOfRange,
+           .message = fmt::format("a picture is 1 to {} pixels wide and high, and the camera's "
+                                  "frame is larger",
+                                  kWidestPicture_px),
+           .help = "render size=1280,960"});
+    }
+    request.width_px = size_px.x(), request.height_px = size_px.y();
   }
   Fired fired;
   fired.edit.outputs.emplace_back(std::move(request));
@@ -139,7 +150,8 @@ CommandResult Export(const State& state, const Answers& answers, const Surroundi
                  .where = AtKey("camera")});
   }
   Fired fired;
-  fired.edit.outputs.emplace_back(model::ExportRequest{state.model, file});
+  fired.edit.outputs.emplace_back(
+      model::ExportRequest{state.model, file, state.drawing.view->photo});
   return fired;
 }
 
