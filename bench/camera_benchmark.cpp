@@ -11,13 +11,11 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <fstream>
 #include <iostream>
 #include <map>
-#include <sstream>
 
 #include "bench/camera_trials.h"
-#include "bench/markdown.h"
+#include "bench/report.h"
 #include "bench/svg_plot.h"
 #include "camera/likelihood.h"
 #include "camera/paper_method.h"
@@ -52,17 +50,6 @@ struct Settings {
 
   bool Wants(const std::string& part) const {
     return parts.empty() || std::ranges::find(parts, part) != parts.end();
-  }
-};
-
-// The blocks of docs/camera.md and the plots beside it.
-struct Report {
-  std::map<std::string, std::string> blocks;
-  std::map<std::string, std::string> plots;  // by file name
-
-  void Add(const std::string& name, std::string text) {
-    std::cout << text << std::flush;
-    blocks[name] = std::move(text);
   }
 };
 
@@ -527,27 +514,6 @@ void AddSpeed(Report& report) {
 }
 
 // ---- files
-
-bool WriteFile(const std::string& path, const std::string& text) {
-  std::ofstream file(path, std::ios::binary);
-  file << text;
-  return file.flush().good();
-}
-
-bool WriteDocs(const std::string& docs, const Report& report) {
-  std::ostringstream text;
-  text << std::ifstream(docs + "/camera.md", std::ios::binary).rdbuf();
-  const auto written = WithBlocks(text.str(), report.blocks);
-  if (!written) {
-    std::cerr << "a generated block has lost its marks in " << docs << "/camera.md\n";
-    return false;
-  }
-  bool is_written = WriteFile(docs + "/camera.md", *written);
-  for (const auto& [name, plot] : report.plots)
-    is_written &= WriteFile(fmt::format("{}/camera/{}", docs, name), plot);
-  if (!is_written) std::cerr << "could not write below " << docs << "\n";
-  return is_written;
-}
 
 std::optional<Settings> SettingsOf(const std::vector<std::string_view>& words) {
   Settings settings;

@@ -2,6 +2,7 @@
 #include "camera/image_line.h"
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
 
 namespace tranos::camera {
@@ -52,6 +53,12 @@ geom::Result<ImageLine> FitImageLine(const std::vector<Vec2>& dots_px, double si
                    tilt,
                    static_cast<int>(dots_px.size()),
                    dots_px.size() == 2 ? 0 : misfit};
+}
+
+int SamplesOf(const ImageLine& line, double sigma_px) {
+  constexpr double kMost = 1e6;
+  const double samples = 12 * std::pow(sigma_px / line.tilt_sigma_px, 2);
+  return static_cast<int>(std::round(std::clamp(samples, 2.0, kMost)));
 }
 
 }  // namespace tranos::camera

@@ -30,4 +30,8 @@ struct ImageLine {
 geom::Result<ImageLine> FitImageLine(const std::vector<Vec2>& dots_px, double sigma_px,
                                      double samples = 0);
 
+// So many pixels that a line fitted to them, each with deviation `sigma_px`, is as sure of its
+// direction as this one; two or more.
+int SamplesOf(const ImageLine&, double sigma_px);
+
 }  // namespace tranos::camera

@@ -81,7 +81,7 @@ double ChiSquaredTail(double chi2, double dof) {
   return front * value;
 }
 
-double NormalNumbers::Uniform() {
+double UniformNumbers::Next() {
   state_ += 0x9e3779b97f4a7c15u;
   std::uint64_t z = state_;
   z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
@@ -91,8 +91,8 @@ double NormalNumbers::Uniform() {
 }
 
 double NormalNumbers::Next() {
-  const double radius = std::sqrt(-2 * std::log(Uniform()));
-  return radius * std::cos(2 * geom::kPi * Uniform());
+  const double radius = std::sqrt(-2 * std::log(uniform_.Next()));
+  return radius * std::cos(2 * geom::kPi * uniform_.Next());
 }
 
 }  // namespace tranos::camera

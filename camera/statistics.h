@@ -14,16 +14,24 @@ double StudentQuantile(double p, double dof);
 // The probability that χ² with `dof` > 0 degrees of freedom exceeds `chi2`.
 double ChiSquaredTail(double chi2, double dof);
 
-// Standard normal numbers by Box and Muller from Steele, Lea and Flood's SplitMix64.
-class NormalNumbers {
+// Numbers spread evenly in (0, 1): Steele, Lea and Flood's SplitMix64.
+class UniformNumbers {
  public:
-  explicit NormalNumbers(std::uint64_t seed) : state_(seed) {}
+  explicit UniformNumbers(std::uint64_t seed) : state_(seed) {}
   double Next();
 
  private:
-  double Uniform();  // in (0, 1)
-
   std::uint64_t state_;
+};
+
+// Standard normal numbers, of these by Box and Muller.
+class NormalNumbers {
+ public:
+  explicit NormalNumbers(std::uint64_t seed) : uniform_(seed) {}
+  double Next();
+
+ private:
+  UniformNumbers uniform_;
 };
 
 }  // namespace tranos::camera

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "camera/default_priors.h"
 #include "interp/arithmetic.h"
 #include "interp/commands/families.h"
 #include "interp/commands/firing.h"
@@ -115,11 +116,8 @@ CommandResult StatePrior(const State& state, const Answers& answers,
                  .help = "`prior photo=NAME …` names a photograph"});
   }
   if (answers.HasWord("default")) {
-    changed.priors[camera::kAspect] = {1, 0.03};
-    for (const int i : {0, 1}) {
-      changed.priors[camera::kPrincipalX + i] = {0, 0.05 * changed.frame.size_mm[i]};
-    }
-    changed.priors[camera::kSkew] = {kPi / 2, kDegree};
+    const auto standard = camera::DefaultPriors(changed.frame);
+    std::copy(standard.begin() + camera::kAspect, standard.end(), changed.priors + camera::kAspect);
   }
   bool says = answers.HasWord("default");
   for (const auto& [key, value] : answers.keys) {

@@ -92,7 +92,10 @@ std::optional<std::filesystem::path> DataFolder() {
 std::vector<Known> YorkUrban(const std::filesystem::path& data) {
   const json all = Parsed(data / "york_urban" / "ground_truth.json");
   std::vector<Known> photographs;
-  for (const json& image : all["images"]) photographs.push_back(YorkPhotograph(image, all["K"]));
+  for (const json& image : all["images"]) {
+    photographs.push_back(YorkPhotograph(image, all["K"]));
+    photographs.back().file = data / "york_urban" / image["file"].get<std::string>();
+  }
   return photographs;
 }
 
@@ -103,6 +106,7 @@ std::vector<Known> Castle(const std::filesystem::path& data) {
     if (file.parent_path() != "castle-P30") continue;
     Known known;
     known.name = file.stem();
+    known.file = data / "strecha" / file;
     known.segments = TracedBeside(known.name);
     if (known.segments.empty()) continue;
     known.frame = FrameOf(camera["size"][0].get<int>(), camera["size"][1].get<int>());

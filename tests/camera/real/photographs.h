@@ -24,6 +24,7 @@ struct Segment {
 // A photograph with what is known of its camera, and edges along three orthogonal directions.
 struct Known {
   std::string name;
+  std::filesystem::path file;
   Frame frame;      // 36 mm wide, square pixels: only ratios of lengths in it are ever looked at
   double focal_px;  // in x
   Vec2 principal_px;

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "tests/camera/real/results.h"
+#include "tests/camera/real/detected.h"
 
 namespace tranos::camera::real {
 namespace {
@@ -95,6 +95,40 @@ TEST_F(RealPhotographs, OfATowerGiveTheSameCameraAsAnIndependentSolution) {
     EXPECT_NEAR(camera->focal_px, known.focal_px, 2e-3);
     EXPECT_LT((camera->principal_px - known.principal_px).norm(), 2e-3);
   }
+}
+
+// Nothing traced by hand. What docs/camera.md tells, a photograph or two less.
+TEST_F(RealPhotographs, OfYorkGiveTheirDirectionsByTheLinesFoundOnThem) {
+  Errors found, true_directions;
+  for (const Known& known : YorkUrban(data())) {
+    const auto lines = DetectLines(PhotoOf(known));
+    ASSERT_TRUE(lines) << known.name;
+    const auto directions = FindVanishingDirections(*lines, known.frame);
+    ASSERT_TRUE(directions) << known.name;
+    found.Add(FoundCamera(TracedLines(known, *lines, directions->axis)), known);
+    true_directions.Add(FoundCamera(TracedLines(known, *lines, AxesByLabels(known, *lines))),
+                        known);
+  }
+  EXPECT_GE(found.DirectionsWithin(2), 0.80);
+  EXPECT_GE(found.DirectionsWithin(5), 0.93);
+  EXPECT_GE(found.HorizonArea(0.25), 0.91);
+  EXPECT_GE(found.HorizonArea(0.25), true_directions.HorizonArea(0.25) - 0.01);
+  EXPECT_LE(Quantile(found.focal, 0.5), 0.033);
+}
+
+TEST_F(RealPhotographs, OfTheCastleGiveTheirCamerasByTheLinesFoundOnThem) {
+  const std::vector<Known> castle = Castle(data());
+  std::vector<Found> found;
+  for (const Known& known : castle) {
+    const auto lines = DetectLines(PhotoOf(known));
+    ASSERT_TRUE(lines) << known.name;
+    const auto directions = FindVanishingDirections(*lines, known.frame);
+    ASSERT_TRUE(directions) << known.name;
+    found.push_back(FoundCamera(TracedLines(known, *lines, directions->axis)));
+  }
+  EXPECT_LE(Quantile(FocalErrors(found, castle, Loose::kCounts), 0.5), 0.03);
+  EXPECT_LE(Quantile(UprightErrors(found, castle), 0.5), 0.8);
+  EXPECT_LE(Quantile(RotationErrors(found, castle, 4), 0.5), 1.2);
 }
 
 }  // namespace

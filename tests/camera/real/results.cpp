@@ -5,6 +5,7 @@
 #include <cmath>
 #include <complex>
 
+#include "camera/default_priors.h"
 #include "camera/orthocentre.h"
 
 namespace tranos::camera::real {
@@ -68,11 +69,8 @@ Traced TracedEdges(const Known& known) {
 }
 
 void AssumeDefaults(Photograph& photograph) {
-  const Vec2 size_mm = photograph.frame.size_mm;
-  photograph.priors[kAspect] = {1, 0.03};
-  photograph.priors[kPrincipalX] = {0, 0.05 * size_mm.x()};
-  photograph.priors[kPrincipalY] = {0, 0.05 * size_mm.y()};
-  photograph.priors[kSkew] = {kPi / 2, kPi / 180};
+  const auto standard = DefaultPriors(photograph.frame);
+  std::ranges::copy(standard, photograph.priors);
 }
 
 Found FoundCamera(Traced traced, Loss loss) {
@@ -99,6 +97,7 @@ Found FoundCamera(Traced traced, Loss loss) {
   found.sigma_px = estimate->parameters[kFocal].sigma / pitch_mm;
   found.noise_px = estimate->noise_px;
   found.camera_from_world = CameraFromWorld(camera.parameters);
+  found.dot_from_camera = photograph.frame.DotFromFrame() * FrameFromCamera(camera.parameters);
   found.is_found = true;
   return found;
 }
@@ -146,16 +145,15 @@ std::vector<double> RelativeRotationErrors(const std::vector<Found>& found,
   return errors;
 }
 
-std::vector<double> RotationErrors(const std::vector<Found>& found,
-                                   const std::vector<Known>& known) {
-  // Twice the azimuth, so that the way along a facade does not count.
-  std::complex<double> twice = 0;
+std::vector<double> RotationErrors(const std::vector<Found>& found, const std::vector<Known>& known,
+                                   int alike) {
+  // So many times the azimuth, so that turns that are alike do not count.
+  std::complex<double> sum = 0;
   for (std::size_t i = 0; i < found.size(); ++i) {
     const Vec3 x = known[i].camera_from_world.transpose() * found[i].camera_from_world.col(0);
-    const std::complex<double> along(x.x(), x.y());
-    twice += along * along;
+    sum += std::pow(std::complex<double>(x.x(), x.y()), alike);
   }
-  const double azimuth = 0.5 * std::arg(twice);
+  const double azimuth = std::arg(sum) / alike;
   Mat3 world_from_castle;  // the survey's Z is downward
   world_from_castle.col(0) = Vec3(std::cos(azimuth), std::sin(azimuth), 0);
   world_from_castle.col(2) = -Vec3::UnitZ();
@@ -163,9 +161,13 @@ std::vector<double> RotationErrors(const std::vector<Found>& found,
   std::vector<double> errors;
   for (std::size_t i = 0; i < found.size(); ++i) {
     const Mat3 truth = known[i].camera_from_world * world_from_castle;
-    const Mat3& camera_from_castle = found[i].camera_from_world;
-    errors.push_back(std::min(Angle(camera_from_castle * truth.transpose()),
-                              Angle(camera_from_castle * HalfTurn() * truth.transpose())));
+    double least = 180;
+    for (int k = 0; k < alike; ++k) {
+      const Eigen::AngleAxisd turn(2 * kPi * k / alike, Vec3::UnitZ());
+      least = std::min(
+          least, Angle(found[i].camera_from_world * turn.toRotationMatrix() * truth.transpose()));
+    }
+    errors.push_back(least);
   }
   return errors;
 }

@@ -32,6 +32,7 @@ struct Found {
   double sigma_px = 0;  // of it
   double noise_px = 0;
   Mat3 camera_from_world = Mat3::Identity();
+  Mat3 dot_from_camera = Mat3::Identity();
 
   // A focal length that data and priors leave uncertain by more than a fifth of it.
   bool is_loose() const { return sigma_px > 0.2 * focal_px; }
@@ -50,8 +51,10 @@ double RotationErrorUpToSigns(const Mat3& found, const Mat3& truth);
 // For every two photographs, degrees between the true and the found turn from one to the other.
 std::vector<double> RelativeRotationErrors(const std::vector<Found>&, const std::vector<Known>&);
 // For every photograph, degrees between the true and the found rotation from the castle's frame:
-// its Z is the true upright, its azimuth, which no survey tells, the mean of those found.
-std::vector<double> RotationErrors(const std::vector<Found>&, const std::vector<Known>&);
+// its Z is the true upright, its azimuth, which no survey tells, the mean of those found. So many
+// turns about Z are alike: two where it is known which facade is which, four where it is not.
+std::vector<double> RotationErrors(const std::vector<Found>& found, const std::vector<Known>& known,
+                                   int alike = 2);
 // For every photograph, degrees between the true upright direction and the one found.
 std::vector<double> UprightErrors(const std::vector<Found>&, const std::vector<Known>&);
 
