@@ -160,6 +160,35 @@ class Photograph(harness.ProgramTest):
         read = self.run_script('attach photo "p.png" format=40.5mm,26.7mm as p\nassert p.width == 484px\n')
         self.assertEqual(read.status, 0, read.err)
 
+    def test_orthophoto(self):
+        """The picture with what is known of it; the model bears it; other views; a journal that needs no pixels."""
+        text = (GOLDENS / "an_orthophoto_reaches_over_what_is_built.trn").read_text(encoding="utf-8").split("choose")[0]
+        text = text.replace("pixel=5cm", 'pixel=5cm file="front.png"')
+        text += "set view textured photo\nrender size=160,120\nview camera hall\nrender size=160,107\n"
+        ran = self.run_script(text, "--journal", "journal.jsonl", "--threads", "1")
+        self.assertEqual(ran.status, 0, ran.err)
+        about = json.loads((self.folder / "out/front.json").read_text())
+        self.assertEqual([about["facade"], about["photograph"], about["size_px"]], ["front", "hall", [200, 150]])
+        self.assertEqual([round(x, 6) for x in about["lower_left_m"]], [0, 0, 0])
+        self.assertEqual(about["hidden"], 0)
+        self.assertLess(about["outside"], 0.1)
+        self.assertEqual((self.folder / "out/front.png").read_bytes()[25], 6)  # red, green, blue, alpha
+        data = (self.folder / "out/script.glb").read_bytes()
+        model = json.loads(data[20:20 + struct.unpack("<I", data[12:16])[0]])
+        self.assertEqual([image["mimeType"] for image in model["images"]], ["image/png"] * 2)
+        borne = [primitive for mesh in model["meshes"] for primitive in mesh["primitives"]
+                 if "TEXCOORD_0" in primitive["attributes"]]
+        self.assertEqual(len(borne), 2)  # the front, and the photograph at its frame
+        before = self.files()
+        again = self.run_script(text, "--threads", "4")
+        self.assertEqual(again.status, 0, again.err)
+        after = self.files()
+        self.assertEqual({name: data for name, data in before.items() if name.startswith("out")},
+                         {name: data for name, data in after.items() if name.startswith("out")})
+        (self.folder / "facade.png").unlink()
+        replayed = self.tranos("replay", "journal.jsonl")
+        self.assertEqual(replayed.status, 0, replayed.err)
+
     def test_folded_photograph_is_refused(self):
         ran = self.run_script("place camera f=35mm format=36mm,24mm size=48,32 xy=0,-20,2 as paper\n"
                               "render photo camera=paper distortion=[-0.3, -0.3] as p\n")
