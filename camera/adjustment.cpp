@@ -9,7 +9,10 @@
 
 namespace tranos::camera {
 
-FacadePlane PlaneOf(const Layout& layout, int facade, const Eigen::VectorXd& state) {
+FacadePlane PlaneOf(const Layout& layout, const Numbers& numbers, int facade,
+                    const Eigen::VectorXd& state) {
+  const NumberIndex given = layout.facade_number[facade];
+  if (given >= 0) return {numbers.values[given], numbers.values[given + 1]};
   const int column = layout.facade_column[facade];
   return column < 0 ? FacadePlane{} : FacadePlane{state[column], state[column + 1]};
 }
@@ -87,10 +90,18 @@ class Writer {
   // The last row's derivative by where the facade is; `p` is the point on it.
   void ByPlane(int facade, const Vec2& p, const Vec3& derivative) {
     const int column = layout_.facade_column[facade];
-    if (column < 0) return;
-    const FacadePlane plane = PlaneOf(layout_, facade, state_);
-    ByNuisance(column, derivative.dot(plane.ByAzimuth(p)));
-    ByNuisance(column + 1, derivative.dot(plane.away()));
+    const NumberIndex given = layout_.facade_number[facade];
+    if (column < 0 && given < 0) return;
+    const FacadePlane plane = PlaneOf(layout_, numbers_, facade, state_);
+    const double by_azimuth = derivative.dot(plane.ByAzimuth(p));
+    const double by_distance = derivative.dot(plane.away());
+    if (given >= 0) {
+      ByNumber(given, by_azimuth);
+      ByNumber(given + 1, by_distance);
+    } else {
+      ByNuisance(column, by_azimuth);
+      ByNuisance(column + 1, by_distance);
+    }
   }
 
   void Write(const View& view, const EdgeTrace& trace) {
@@ -137,7 +148,7 @@ class Writer {
   template <class By>
   void WritePoint(const View& view, int facade, const Vec2& p, const Vec2& dot, double sigma,
                   const By& by) {
-    const FacadePlane plane = PlaneOf(layout_, facade, state_);
+    const FacadePlane plane = PlaneOf(layout_, numbers_, facade, state_);
     for (const Residual& r : PointResiduals(view, dot, sigma, plane.Point(p))) {
       Put(r);
       ByPlane(facade, p, r.by_point[0]);
@@ -188,7 +199,7 @@ class Writer {
   }
 
   void Write(const View& view, const CircleTrace& trace) {
-    const FacadePlane plane = PlaneOf(layout_, trace.facade, state_);
+    const FacadePlane plane = PlaneOf(layout_, numbers_, trace.facade, state_);
     const Vec2 centre = state_.segment<2>(column_);
     const double radius = state_[column_ + 2];
     for (const Vec2& dot : trace.dots_px) {
@@ -242,7 +253,8 @@ bool WorldIsFixed(std::span<const Photograph> photographs) {
                              [](const Photograph& photograph) { return WorldIsFixed(photograph); });
 }
 
-Layout LayoutOf(std::span<const Photograph> photographs, std::span<const Unknown> unknowns) {
+Layout LayoutOf(std::span<const Photograph> photographs, std::span<const Unknown> unknowns,
+                std::span<const NumberIndex> given_planes) {
   Layout layout;
   layout.cameras = static_cast<int>(photographs.size());
   layout.unknowns = static_cast<int>(unknowns.size());
@@ -250,6 +262,9 @@ Layout LayoutOf(std::span<const Photograph> photographs, std::span<const Unknown
   const auto take = [&](int columns) {
     layout.columns += columns;
     return layout.columns - columns;
+  };
+  const auto given = [&](std::size_t facade) {
+    return facade < given_planes.size() ? given_planes[facade] : -1;
   };
   const bool fixed = WorldIsFixed(photographs);
   bool origin_is_taken = fixed;
@@ -261,8 +276,8 @@ Layout LayoutOf(std::span<const Photograph> photographs, std::span<const Unknown
       const int facade = FacadeOf(trace), rows = ResidualsOf(trace);
       if (facade >= static_cast<int>(used.size())) used.resize(facade + 1, false);
       if (facade >= 0) used[facade] = true;
-      const bool is_origin =
-          !origin_is_taken && facade == 0 && std::holds_alternative<RectangleTrace>(trace);
+      const bool is_origin = !origin_is_taken && facade == 0 && given(0) < 0 &&
+                             std::holds_alternative<RectangleTrace>(trace);
       origin_is_taken = origin_is_taken || is_origin;
       const int nuisances = is_origin ? 0 : NuisancesOf(trace);
       layout.trace_column[p].push_back(nuisances > 0 ? take(nuisances) : -1);
@@ -274,7 +289,9 @@ Layout LayoutOf(std::span<const Photograph> photographs, std::span<const Unknown
     }
   }
   for (int f = 0; f < static_cast<int>(used.size()); ++f) {
-    layout.facade_column.push_back(used[f] && (fixed || f > 0) ? take(2) : -1);
+    layout.facade_number.push_back(given(static_cast<std::size_t>(f)));
+    const bool is_free = used[f] && (fixed || f > 0) && layout.facade_number.back() < 0;
+    layout.facade_column.push_back(is_free ? take(2) : -1);
   }
   for (const Unknown& unknown : unknowns) layout.unknown_prior_rows += unknown.sigma > 0 ? 1 : 0;
   return layout;
@@ -293,7 +310,10 @@ Eigen::VectorXd StartState(std::span<const Photograph> photographs, const Layout
   std::vector<FacadePlane> planes(layout.facade_column.size());
   for (int f = 0; f < static_cast<int>(planes.size()); ++f) {
     const int column = layout.facade_column[f];
-    if (column < 0) continue;
+    if (column < 0) {
+      planes[f] = PlaneOf(layout, numbers, f, state);
+      continue;
+    }
     std::vector<OnFacade> on_facade;
     for (int p = 0; p < layout.cameras; ++p) {
       for (const Trace& trace : photographs[p].traces) {
@@ -322,7 +342,7 @@ bool SeesFacades(std::span<const Photograph> photographs, const Layout& layout,
     const int facade = FacadeOf(trace);
     if (facade < 0) return true;
     const View view = ViewOf(CameraAt(state, rows.photograph).parameters, photograph.frame);
-    const FacadePlane plane = PlaneOf(layout, facade, state);
+    const FacadePlane plane = PlaneOf(layout, numbers, facade, state);
     const int column = layout.trace_column[rows.photograph][rows.trace];
     const Vec2 at = column < 0 ? Vec2(Vec2::Zero()) : Vec2(state.segment<2>(column));
     const auto* rectangle = std::get_if<RectangleTrace>(&trace);
@@ -333,8 +353,9 @@ bool SeesFacades(std::span<const Photograph> photographs, const Layout& layout,
 }
 
 Mat3 DotFromRectangle(const Photograph& photograph, const TraceRows& rows, const Layout& layout,
-                      const Eigen::VectorXd& state) {
-  const FacadePlane plane = PlaneOf(layout, FacadeOf(photograph.traces[rows.trace]), state);
+                      const Numbers& numbers, const Eigen::VectorXd& state) {
+  const FacadePlane plane =
+      PlaneOf(layout, numbers, FacadeOf(photograph.traces[rows.trace]), state);
   const int column = layout.trace_column[rows.photograph][rows.trace];
   const Vec2 first = column < 0 ? Vec2(Vec2::Zero()) : Vec2(state.segment<2>(column));
   Eigen::Matrix<double, 4, 3> world_from_rectangle;

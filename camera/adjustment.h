@@ -6,7 +6,9 @@
 // facade is an upright plane with two nuisances, its azimuth from X (rad) and its distance along
 // its normal from the world's origin (m); a rectangle on it has the place of its first dot (m, m),
 // a ratio the place of its first edge, that edge, and the place of its second (m each), a circle
-// its centre and radius (m). Facades are the same ones in all photographs.
+// its centre and radius (m). Facades are the same ones in all photographs. A facade whose place is
+// given has no nuisances of its own: its azimuth and distance are numbers, which may hang on
+// unknowns.
 #pragma once
 
 #include <span>
@@ -32,7 +34,8 @@ struct Layout {
   int trace_rows = 0;
   int unknown_prior_rows = 0;
   int camera_prior_rows = 0;
-  std::vector<int> facade_column;              // by facade; −1 for the plane y = 0
+  std::vector<int> facade_column;  // by facade; −1 for the plane y = 0, and where it is given
+  std::vector<NumberIndex> facade_number;      // of the azimuth; −1 where it is not given
   std::vector<std::vector<int>> trace_column;  // by photograph and trace; −1: no nuisances
   std::vector<TraceRows> traces;
 
@@ -46,7 +49,9 @@ struct Layout {
 // first dot of its first rectangle is the origin.
 bool WorldIsFixed(std::span<const Photograph>);
 
-Layout LayoutOf(std::span<const Photograph>, std::span<const Unknown>);
+// `given_planes` by facade, as Layout's `facade_number`; none beyond its end.
+Layout LayoutOf(std::span<const Photograph>, std::span<const Unknown>,
+                std::span<const NumberIndex> given_planes = {});
 
 // The state for cameras and unknowns, with the nuisances that suit them: each facade turned and
 // placed so that what was traced on it comes nearest to its stated shape, each shape where the rays
@@ -70,11 +75,11 @@ bool SeesFacades(std::span<const Photograph>, const Layout&, const Numbers&,
                  const Eigen::VectorXd& state);
 
 // Where the facade with this index is.
-FacadePlane PlaneOf(const Layout&, int facade, const Eigen::VectorXd& state);
+FacadePlane PlaneOf(const Layout&, const Numbers&, int facade, const Eigen::VectorXd& state);
 
 // Dots from metres on the facade of the rectangle with these rows, to the right and upward from its
 // first dot.
-Mat3 DotFromRectangle(const Photograph&, const TraceRows&, const Layout&,
+Mat3 DotFromRectangle(const Photograph&, const TraceRows&, const Layout&, const Numbers&,
                       const Eigen::VectorXd& state);
 
 inline Camera CameraAt(const Eigen::VectorXd& state, int photograph) {

@@ -131,7 +131,7 @@ geom::Result<std::vector<Estimate>> Calibrated(std::span<const Photograph> photo
   Task task{photographs,
             unknowns,
             numbers_of,
-            LayoutOf(photographs, unknowns),
+            LayoutOf(photographs, unknowns, options.given_planes),
             {.loss = options.loss, .noise_scale = 1, .skew_rad = {}}};
   auto adjusted = Adjust(task, *numbers, u);
   if (!adjusted) return tl::unexpected(adjusted.error());

@@ -20,6 +20,9 @@ struct CalibrateOptions {
   int trials = 0;                    // resamplings, the paper's Step I
   std::uint64_t seed = 1;            // of these
   std::optional<SkewRange> profile;  // χ² over the skew of the first photograph
+  // By facade, the number that gives its azimuth, its distance from the world's origin the next one
+  // (FacadePlane); −1 where its place is to be found.
+  std::vector<NumberIndex> given_planes = {};
 };
 
 // An estimate for each photograph, all from one adjustment; what is told of unknowns, χ² and

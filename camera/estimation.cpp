@@ -160,21 +160,32 @@ Vec2 OriginOn(int facade, std::span<const Photograph> photographs, const Layout&
 }
 
 std::vector<FacadeEstimate> FacadesOf(std::span<const Photograph> photographs, const Layout& layout,
-                                      const Eigen::VectorXd& state, const Determination& d,
+                                      const Refined& refined, const Determination& d,
                                       const Eigen::MatrixXd& root) {
+  const Eigen::VectorXd& state = refined.state;
+  const auto by_unknowns = root.middleRows(layout.unknown_column(), layout.unknowns);
   std::vector<FacadeEstimate> facades;
   for (int i = 0; i < static_cast<int>(layout.facade_column.size()); ++i) {
-    const FacadePlane plane = PlaneOf(layout, i, state);
+    const FacadePlane plane = PlaneOf(layout, refined.numbers, i, state);
     const Vec2 origin = OriginOn(i, photographs, layout, state);
     FacadeEstimate& facade = facades.emplace_back();
     facade.plane = {plane.Point(origin), plane.right(), Vec3::UnitZ()};
     facade.deviations = Eigen::MatrixXd::Zero(3, root.cols());
     const int column = layout.facade_column[static_cast<std::size_t>(i)];
-    if (column < 0) continue;
+    const NumberIndex given = layout.facade_number[static_cast<std::size_t>(i)];
+    if (column < 0 && given < 0) continue;
+    Eigen::RowVectorXd azimuth, distance;
+    if (given >= 0) {
+      azimuth = refined.numbers.by_unknown.row(given) * by_unknowns;
+      distance = refined.numbers.by_unknown.row(given + 1) * by_unknowns;
+    } else {
+      azimuth = root.row(column);
+      distance = root.row(column + 1);
+      facade.determined = d.with_priors[column] && d.with_priors[column + 1];
+    }
     // The normal points outward, against the distance, and the upright axis is y.
-    facade.deviations.row(0) = -root.row(column + 1) - origin.x() * root.row(column);
-    facade.deviations.row(2) = root.row(column);
-    facade.determined = d.with_priors[column] && d.with_priors[column + 1];
+    facade.deviations.row(0) = -distance - origin.x() * azimuth;
+    facade.deviations.row(2) = azimuth;
   }
   return facades;
 }
@@ -213,7 +224,7 @@ std::vector<Estimate> EstimatesOf(std::span<const Photograph> photographs,
   common.chi2 = at.residuals.squaredNorm();
   common.dof = layout.rows() - d.rank;
   common.undetermined = d.undetermined;
-  common.facades = FacadesOf(photographs, layout, refined.state, d, root);
+  common.facades = FacadesOf(photographs, layout, refined, d, root);
   for (int i = 0; i < layout.unknowns; ++i) {
     const int column = layout.unknown_column() + i;
     const bool at_bound = !refined.at_bound.empty() && refined.at_bound[i];
@@ -248,7 +259,8 @@ std::vector<Estimate> EstimatesOf(std::span<const Photograph> photographs,
           {rows.trace, std::vector<double>(r.begin(), r.end()), refined.weights[i]});
       if (std::holds_alternative<RectangleTrace>(photographs[p].traces[rows.trace])) {
         estimate.rectangles.push_back(
-            {rows.trace, DotFromRectangle(photographs[p], rows, layout, refined.state)});
+            {rows.trace,
+             DotFromRectangle(photographs[p], rows, layout, refined.numbers, refined.state)});
       }
     }
     estimates.push_back(std::move(estimate));

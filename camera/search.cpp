@@ -186,8 +186,8 @@ std::optional<Adjusted> InValley(const Task& task, const Numbers& numbers, const
                                  std::span<const Camera> starts) {
   Photograph photograph = Anchored(task.photographs[0], starts[0]);
   const std::span<const Photograph> one(&photograph, 1);
-  const Task anchored{one, task.unknowns, task.numbers_of, LayoutOf(one, task.unknowns),
-                      task.refine};
+  const Task anchored{one, task.unknowns, task.numbers_of,
+                      LayoutOf(one, task.unknowns, task.layout.facade_number), task.refine};
   Poses poses;
   poses.Add(anchored, numbers, u, Settled(anchored, numbers, starts));
   const std::vector<Refined> found = std::move(poses).Sorted();
@@ -269,7 +269,8 @@ geom::Result<Adjusted> Adjust(const Task& task, const Numbers& numbers, const Ei
   for (const Photograph& photograph : task.photographs) {
     const std::span<const Photograph> one(&photograph, 1);
     const auto alone =
-        AdjustOne({one, task.unknowns, task.numbers_of, LayoutOf(one, task.unknowns), task.refine},
+        AdjustOne({one, task.unknowns, task.numbers_of,
+                   LayoutOf(one, task.unknowns, task.layout.facade_number), task.refine},
                   numbers, u);
     if (!alone) {
       return tl::unexpected(ErrorAmong(task.photographs, std::ssize(cameras), alone.error()));

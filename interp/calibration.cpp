@@ -152,6 +152,7 @@ Fired Machine::Calibrate(const Answers& answers, const model::State& state, Span
     options.noise_px = traced.noise_px;
     options.noise_is_estimated = traced.noise_is_estimated;
     if (answers.Has("skew")) options.profile = method.range;
+    options.given_planes = traced.given_planes;
     options.trials = static_cast<int>(std::min(answers.Number("trials"), 100'000.0));
     found = camera::Calibrate(traced.photographs, evaluation.unknowns(), evaluate, options);
     if (found) {
@@ -231,6 +232,38 @@ void Machine::FailCalibration(const geom::Error& error, const Traced& traced, Sp
   Fail(code, *trace, error.detail, "this trace", "", std::move(notes));
 }
 
+namespace {
+
+// A facade that stood in the model keeps its origin; it moves as the adjustment has it.
+ElementPtr GivenFacade(const model::Element& given, camera::FacadeEstimate estimate) {
+  const model::Facade& facade = model::FacadeOf(given);
+  const double along_m = (facade.plane.origin - estimate.plane.origin).dot(estimate.plane.x);
+  estimate.plane = facade.plane;
+  if (estimate.deviations.cols() > 0)
+    estimate.deviations.row(0) -= along_m * estimate.deviations.row(2);
+  return model::WithMoved(given, MovedFacade(facade.name, estimate, facade.solved));
+}
+
+// Facades that traces declared, as they were found; those that were there, with their deviations.
+void AdoptFacades(const std::vector<camera::FacadeEstimate>& found, const Traced& traced,
+                  const model::State& solved, model::Edit* edit) {
+  for (std::size_t i = 0; i < std::min(found.size(), traced.facades.size()); ++i) {
+    const std::string& name = traced.facades[i];
+    if (const ElementPtr given = model::FindFacade(solved.model, name)) {
+      std::erase_if(edit->replaced,
+                    [&](const ElementPtr& replaced) { return replaced->id == given->id; });
+      edit->replaced.push_back(GivenFacade(*given, found[i]));
+    } else if (found[i].determined) {
+      const int index = static_cast<int>(i);
+      edit->added.push_back(
+          model::WithMoved(*NewElement(solved, FacadeGeometry(name, found[i].plane, index)),
+                           MovedFacade(name, found[i], index)));
+    }
+  }
+}
+
+}  // namespace
+
 // The state as the solution makes it: what depends on unknowns, and the photographs' cameras.
 Fired Machine::Calibrated(Solution solution, const model::State& before, Span span) {
   auto& [evaluation, traced, silent, solved, found] = solution;
@@ -253,14 +286,7 @@ Fired Machine::Calibrated(Solution solution, const model::State& before, Span sp
   CheckNumbers(evaluation, trial, run.state(), traced);
   Fired fired;
   fired.edit = Adopt(run, before, span);
-  const std::vector<camera::FacadeEstimate>& facades = found[0].facades;
-  for (std::size_t i = 0; i < std::min(facades.size(), traced.facades.size()); ++i) {
-    if (!facades[i].determined) continue;
-    fired.edit.added.push_back(model::WithMoved(
-        *NewElement(run.state(),
-                    FacadeGeometry(traced.facades[i], facades[i].plane, static_cast<int>(i))),
-        MovedFacade(traced.facades[i], facades[i], static_cast<int>(i))));
-  }
+  AdoptFacades(found[0].facades, traced, run.state(), &fired.edit);
   for (std::size_t p = 0; p < found.size(); ++p) {
     const ElementPtr element = run.state().model.Current(traced.photograph_ids[p]);
     model::Photograph photograph = *std::get<model::PhotographPtr>(element->geometry);

@@ -65,6 +65,7 @@ class Beside {
     }
     if (row.dots) {
       if (const auto photograph = CameraMeant(before, answers)) NoteCamera(*photograph);
+      if (const auto facade = FacadeMeant(before, answers)) Note(*facade);
     }
   }
 

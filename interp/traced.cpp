@@ -2,9 +2,11 @@
 #include "interp/traced.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "camera/virtual_camera.h"
+#include "model/facades.h"
 
 namespace tranos::interp {
 
@@ -28,6 +30,7 @@ class Gathering {
           only == model::kNoElement ? photograph && (*photograph)->attached : element->id == only;
       if (photograph && meant) Add(*element, **photograph);
     });
+    NameFacades();
     ForEachPart([&](const ElementPtr& element) {
       if (const auto* trace = std::get_if<model::TracePtr>(&element->geometry)) {
         Add(element->id, **trace);
@@ -138,19 +141,47 @@ class Gathering {
     return first;
   }
 
-  int Facade(const Trace& trace) {
-    const auto known =
-        facades_.try_emplace(trace.facade, static_cast<int>(facades_.size())).first->second;
-    out_.facades.resize(facades_.size());
-    out_.facades[static_cast<std::size_t>(known)] = trace.facade;
-    return known;
+  // Facades whose place is to be found come first, so that the first of them is y = 0.
+  void NameFacades() {
+    std::vector<std::string> given;
+    ForEachPart([&](const ElementPtr& element) {
+      const auto* trace = std::get_if<model::TracePtr>(&element->geometry);
+      if (!trace || (*trace)->facade.empty() || !place_.contains((*trace)->photograph)) return;
+      if (!LiesOnFacade(**trace)) return;
+      const ElementPtr known = model::FindFacade(state_.model, (*trace)->facade);
+      auto& names = known && !IsFirst(model::FacadeOf(*known).plane) ? given : out_.facades;
+      if (std::find(names.begin(), names.end(), (*trace)->facade) == names.end())
+        names.push_back((*trace)->facade);
+    });
+    out_.given_planes.assign(out_.facades.size(), -1);
+    for (const std::string& name : given) {
+      out_.given_planes.push_back(static_cast<int>(out_.numbers.size()));
+      const geom::Frame& plane = model::FacadeOf(*model::FindFacade(state_.model, name)).plane;
+      const geom::Vec3 away = -plane.z();
+      out_.numbers.push_back(Value::Number(std::atan2(plane.x.y(), plane.x.x()), model::kAngle));
+      out_.numbers.push_back(Value::Number(away.dot(plane.origin), model::kLength));
+      out_.facades.push_back(name);
+    }
+  }
+
+  static bool LiesOnFacade(const Trace& trace) {
+    return trace.kind == Trace::Kind::kRectangle || trace.kind == Trace::Kind::kRatio ||
+           trace.kind == Trace::Kind::kCircle;
+  }
+  // The plane y = 0, seen from before it: what the first facade is anyway.
+  static bool IsFirst(const geom::Frame& plane) {
+    return (plane.x - geom::Vec3::UnitX()).norm() < 1e-12 && std::abs(plane.origin.y()) < 1e-12;
+  }
+
+  int Facade(const Trace& trace) const {
+    const auto found = std::find(out_.facades.begin(), out_.facades.end(), trace.facade);
+    return static_cast<int>(found - out_.facades.begin());
   }
 
   const model::State& state_;
   Traced out_;
   bool is_first_ = true;
   std::map<ElementId, std::size_t> place_;
-  std::map<std::string, int> facades_;
 };
 
 }  // namespace

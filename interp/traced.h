@@ -20,7 +20,10 @@ struct Traced {
   std::vector<model::ElementId> number_owners;           // the trace that each stands for
   std::unordered_set<model::ElementId> elements;         // those that traces are of
   std::vector<std::string> facades;                      // their names, by camera's index
-  double noise_px = 0.5;                                 // of the first trace
+  // Of each: the number that gives its azimuth, with its distance after it, where a facade of that
+  // name stands in the model; −1 where its place is to be found.
+  std::vector<camera::NumberIndex> given_planes;
+  double noise_px = 0.5;  // of the first trace
   bool noise_is_estimated = false;
 };
 // Of the photograph with this id, or of all attached ones.

@@ -32,14 +32,10 @@ constexpr int kBand_px = 16;          // rows of pixels that are made at a time
 constexpr int kMeterStep_px = 8;      // one pixel in so many, each way, is metered
 constexpr float kExposedTo = 0.75f;   // the light that the brighter parts of a building get
 
-float Linear(std::uint8_t srgb) {
-  const float s = static_cast<float>(srgb) / 255;
-  return s <= 0.04045f ? s / 12.92f : std::pow((s + 0.055f) / 1.055f, 2.4f);
-}
-
 // What an orthochromatic plate makes of a colour.
 float Albedo(const model::Rgb& rgb) {
-  return 0.10f * Linear(rgb.r) + 0.42f * Linear(rgb.g) + 0.48f * Linear(rgb.b);
+  return static_cast<float>(0.10 * LinearFromSrgb(rgb.r) + 0.42 * LinearFromSrgb(rgb.g) +
+                            0.48 * LinearFromSrgb(rgb.b));
 }
 
 struct Face {

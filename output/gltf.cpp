@@ -3,7 +3,6 @@
 
 #include <tiny_gltf.h>
 
-#include <Eigen/SVD>
 #include <cmath>
 #include <cstring>
 #include <map>
@@ -13,6 +12,7 @@
 #include <utility>
 
 #include "output/facets.h"
+#include "output/factors.h"
 #include "output/material.h"
 #include "output/pasting.h"
 #include "output/picture_plane.h"
@@ -83,11 +83,6 @@ Content ContentOf(const Facets& facets, const Vec3& centre) {
     }
   }
   return content;
-}
-
-double LinearFromSrgb(std::uint8_t value) {
-  const double s = value / 255.0;
-  return s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4);
 }
 
 // Builds the file's tables, each thing once: accessors by content, materials by look, meshes by
@@ -260,36 +255,6 @@ int GlbBuilder::AddGroup(const Element& element, const model::Group& group, cons
   Translate(node, centre - origin);
   node.children = std::move(children);
   return AddNode(std::move(node));
-}
-
-// rotation · scale · before = the linear part, each of rotation and before a rotation.
-struct Factors {
-  Eigen::Matrix3d rotation, before;
-  Vec3 scale;
-};
-Factors FactorsOf(const Eigen::Matrix3d& linear) {
-  Factors factors;
-  const Eigen::Matrix3d gram = linear.transpose() * linear;
-  const double off_diagonal = std::abs(gram(0, 1)) + std::abs(gram(0, 2)) + std::abs(gram(1, 2));
-  if (off_diagonal <= 1e-12 * gram.trace()) {
-    factors.scale = linear.colwise().norm().transpose();
-    factors.rotation = linear * factors.scale.cwiseInverse().asDiagonal();
-    factors.before.setIdentity();
-  } else {
-    const Eigen::JacobiSVD<Eigen::MatrixXd> svd(linear, Eigen::ComputeFullU | Eigen::ComputeFullV);
-    factors.rotation = svd.matrixU();
-    factors.scale = svd.singularValues();
-    factors.before = svd.matrixV().transpose();
-  }
-  if (factors.rotation.determinant() < 0) {
-    factors.rotation.col(0) *= -1;
-    factors.scale.x() *= -1;
-  }
-  if (factors.before.determinant() < 0) {
-    factors.before.row(0) *= -1;
-    factors.scale.x() *= -1;
-  }
-  return factors;
 }
 
 void Rotate(tinygltf::Node& node, const Eigen::Matrix3d& rotation) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <string>
 
 namespace tranos::output {
@@ -64,6 +65,11 @@ const Row* RowOf(std::string_view name) {
 }
 
 }  // namespace
+
+double LinearFromSrgb(std::uint8_t value) {
+  const double s = value / 255.0;
+  return s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4);
+}
 
 Material MaterialOf(std::string_view name) {
   const Row* row = RowOf(name);

@@ -36,4 +36,7 @@ Material MaterialOf(std::string_view name);
 // colour 0, that of lines where none is set, is nearly black, in which a form would drown).
 model::Rgb SurfaceColour(model::Colour colour, std::string_view material);
 
+// The light that a value of the screen stands for, from 0 to 1 (IEC 61966-2-1).
+double LinearFromSrgb(std::uint8_t value);
+
 }  // namespace tranos::output

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "geom/closed_surface.h"
+#include "geom/join_faces.h"
 #include "geom/swept_solid.h"
 #include "interp/commands/construction.h"
 #include "interp/commands/families.h"
@@ -207,6 +208,42 @@ CommandResult Thicken(const State& state, const Answers& answers) {
   return MakeFromChosen(state, answers, {*std::move(solid)});
 }
 
+CommandResult Joined(const State& state, const Answers& answers) {
+  if (auto error = TooFar(answers)) return Fail(*error);
+  std::vector<geom::Polyline> outlines;
+  for (std::size_t i = 0; i < answers.chosen.size(); ++i) {
+    const auto* curve = std::get_if<model::CurvePtr>(&answers.chosen[i]->geometry);
+    const auto* outline = curve ? std::get_if<geom::Polyline>(curve->get()) : nullptr;
+    if (!outline) {
+      return Fail({.code = Code::kWrongElement,
+                   .message = fmt::format("shapes with straight edges are joined, and this is {}",
+                                          NameForMessage(*answers.chosen[i])),
+                   .where = AtChosen(i)});
+    }
+    outlines.push_back(*outline);
+  }
+  const double within_m = answers.Number("within", state.drawing.settings->locate_tolerance_m);
+  if (!(within_m > geom::kCoincident_m)) {
+    return Fail({.code = Code::kOutOfRange,
+                 .message = "corners that are to be joined lie apart by more than nothing",
+                 .label = "above 0",
+                 .where = AtKey("within")});
+  }
+  auto joined = geom::JoinFaces(outlines, within_m);
+  if (!joined) {
+    CommandError error = FromGeom(joined.error(), "a joint");
+    error.help = fmt::format("corners within {} of each other become one; `within=` takes others",
+                             InWords(within_m, *state.drawing.settings));
+    return Fail(std::move(error));
+  }
+  Fired fired;
+  for (std::size_t i = 0; i < outlines.size(); ++i) {
+    fired.edit.replaced.push_back(
+        model::WithGeometry(*answers.chosen[i], CurveGeometry(std::move((*joined)[i]))));
+  }
+  return fired;
+}
+
 CommandResult FromSurfaces(const State& state, const Answers& answers) {
   const auto faces = FacesOf(answers, "a solid");
   if (!faces) return Fail(faces.error());
@@ -296,6 +333,18 @@ constexpr Example kFromSurfacesExamples[] = {
      "construct solid from surfaces of=[s]",
      "E0503"}};
 
+constexpr Key kJoinedKeys[] = {
+    kOf, {"within", Type::kLength, "how far apart corners are that become one", {}, "`lt`"}};
+constexpr Example kJoinedExamples[] = {
+    {"place shape xy=0,0,0 xy=4,0,0 xy=4,0,3 xy=0,0,3 as front\n"
+     "place shape xy=4,0,0.02 xy=4,5,0 xy=4,5,3 xy=4,0.03,3 as side\n"
+     "construct joined of=[front, side] within=5cm",
+     "abs(side.area - 14.975m2) < 0.001m2"},
+    {"place shape xy=0,0,0 xy=4,0,0 xy=4,0,3 as front\n"
+     "place shape xy=4,1,0 xy=4,5,0 xy=4,5,3 as side\n"
+     "construct joined of=[front, side]",
+     "E0502"}};
+
 constexpr Command kCommands[] = {
     {.words = "construct solid projection",
      .family = "construct",
@@ -345,6 +394,16 @@ constexpr Command kCommands[] = {
      .keys = kThickenKeys,
      .examples = kThickenExamples,
      .execute = Thicken},
+    {.words = "construct joined",
+     .family = "construct",
+     .summary = "Brings plane shapes that were measured one by one, such as the facades of a "
+                "house, to common corners and edges; each stays in its plane.",
+     .manner = Manner::kEdits,
+     .prompts = kSurfacePrompts,
+     .least = 2,
+     .keys = kJoinedKeys,
+     .examples = kJoinedExamples,
+     .execute = Joined},
     {.words = "construct solid from surfaces",
      .family = "construct",
      .summary =

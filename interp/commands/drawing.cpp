@@ -70,6 +70,17 @@ tl::expected<ElementPtr, CommandError> FacadeNamed(const State& state, std::stri
                .where = where});
 }
 
+tl::expected<ElementPtr, CommandError> FacadeMeant(const State& state, const Answers& answers) {
+  if (answers.Has("facade")) return FacadeNamed(state, answers.Text("facade"), AtKey("facade"));
+  const model::Settings& settings = *state.drawing.settings;
+  if (settings.facade) {
+    if (ElementPtr facade = state.model.Current(settings.facade->id)) return facade;
+  }
+  return Fail({.code = Code::kNoFacade,
+               .message = "a dot is drawn on a facade, and none is set",
+               .help = "set facade front"});
+}
+
 model::Geometry FacadeGeometry(std::string name, const geom::Frame& plane, int solved) {
   return std::make_shared<const model::Facade>(model::Facade{std::move(name), plane, solved});
 }
@@ -115,14 +126,9 @@ tl::expected<PlacedPoint, CommandError> DrawDot(const State& state, const Vec2& 
                                                 const DotSource& source_of) {
   const auto meant = CameraMeant(state, {});
   if (!meant) return Fail(meant.error());
-  const model::Settings& settings = *state.drawing.settings;
-  const ElementPtr facade =
-      settings.facade ? state.model.Current(settings.facade->id) : ElementPtr{};
-  if (!facade) {
-    return Fail({.code = Code::kNoFacade,
-                 .message = "a dot is drawn on a facade, and none is set",
-                 .help = "set facade front"});
-  }
+  const auto set = FacadeMeant(state, {});
+  if (!set) return Fail(set.error());
+  const ElementPtr& facade = *set;
   const model::Photograph& photograph = PhotographOf(**meant);
   const camera::Estimate& estimate = *photograph.estimate;
   if (auto error = OutsidePhotograph(photograph.frame, dot_px, Code::kBadDot)) return Fail(*error);

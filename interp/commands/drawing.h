@@ -31,6 +31,11 @@ using DotSource = std::function<std::optional<model::SourceId>(
 tl::expected<model::ElementPtr, CommandError> FacadeNamed(const model::State& state,
                                                           std::string_view name, Where where = {});
 
+// The facade that dots are drawn on: facade=, or else the one that is set; E0908 where there is
+// none.
+tl::expected<model::ElementPtr, CommandError> FacadeMeant(const model::State& state,
+                                                          const Answers& answers);
+
 model::Geometry FacadeGeometry(std::string name, const geom::Frame& plane, int solved = -1);
 // A calibrated facade with each source of the adjustment a step to either side.
 std::vector<model::Moved> MovedFacade(const std::string& name, const camera::FacadeEstimate& facade,

@@ -8,6 +8,7 @@
 #include "interp/commands/families.h"
 #include "interp/commands/firing.h"
 #include "interp/commands/photographs.h"
+#include "interp/commands/recover_circle.h"
 
 namespace tranos::interp {
 
@@ -322,8 +323,13 @@ constexpr Key kRecoverKeys[] = {
     {"length", Type::kLength, "of the horizontal edge from its first dot to its last"},
     {"photo", Type::kElement, "the photograph; the one last attached or set without"}};
 
+constexpr Key kCircleKeys[] = {
+    {"facade", Type::kName, "the facade that it lies on; the one that is set without"},
+    {"photo", Type::kElement, "the photograph; the one last attached or set without"}};
+
 constexpr Prompt kPoints[] = {{"point"}};
 constexpr Prompt kDots[] = {{"dot"}};
+constexpr int kMostDots = 10'000;
 
 #define TRANOS_FRONT                                                                       \
   "place camera f=35mm format=36mm,24mm size=1600,1067 phi=-30deg xy=-20,-30,2 as paper\n" \
@@ -349,6 +355,16 @@ constexpr Example kRecoverExamples[] = {
      "distance([3m,4m,5m], t) < 1mm"},
     {TRANOS_FRONT "recover facade tower length=3m dot=900,400 dot=990,420 as t", "t.normal.y < 0"},
     {TRANOS_FRONT "recover facade west dot=800,500", "E0220"}};
+constexpr Example kCircleExamples[] = {
+    {TRANOS_FRONT "recover circle facade=front photo=paper\n"
+                  "dot=900,500 dot=870,560 dot=800,580 dot=740,550 as oculus",
+     "oculus.radius > 10cm"},
+    {TRANOS_FRONT "recover circle facade=front dot=900,500 dot=850,500 dot=800,500", "E0909"}};
+constexpr Example kArcExamples[] = {
+    {TRANOS_FRONT "recover arc facade=front photo=paper\n"
+                  "dot=900,500 dot=870,560 dot=800,580 dot=740,550 as arch",
+     "arch.start.x > arch.end.x"},
+    {TRANOS_FRONT "recover arc dot=900,500 dot=870,560 dot=800,580", "E0908"}};
 #undef TRANOS_FRONT
 
 constexpr Command kCommands[] = {
@@ -383,6 +399,30 @@ constexpr Command kCommands[] = {
      .asks = "facade",
      .examples = kRecoverExamples,
      .execute = RecoverFacade,
+     .dots = true},
+    {.words = "recover circle",
+     .family = "photograph",
+     .summary = "The circle on a facade that is seen along its dots: three of them, better nine.",
+     .manner = Manner::kGathers,
+     .prompts = kDots,
+     .least = 3,
+     .most = kMostDots,
+     .keys = kCircleKeys,
+     .examples = kCircleExamples,
+     .execute = RecoverCircle,
+     .dots = true},
+    {.words = "recover arc",
+     .family = "photograph",
+     .summary =
+         "The arc of a circle on a facade that is seen along its dots, from the first to the "
+         "last.",
+     .manner = Manner::kGathers,
+     .prompts = kDots,
+     .least = 3,
+     .most = kMostDots,
+     .keys = kCircleKeys,
+     .examples = kArcExamples,
+     .execute = RecoverArc,
      .dots = true},
 };
 

@@ -9,6 +9,7 @@
 #include "interp/commands/families.h"
 #include "interp/commands/firing.h"
 #include "interp/commands/photographs.h"
+#include "model/facades.h"
 
 namespace tranos::interp {
 
@@ -54,6 +55,14 @@ CommandResult MakeTrace(const State& state, const Answers& answers, Trace trace,
   trace.photograph = (*photograph)->id;
   trace.noise_px = state.drawing.settings->noise_px;
   trace.facade = answers.Text("facade", "main");
+  const ElementPtr known = model::FindFacade(state.model, trace.facade);
+  if (known && answers.Has("facade") && model::FacadeOf(*known).plane.y.z() < 1 - 1e-9) {
+    return Fail({.code = Code::kBadTrace,
+                 .message = fmt::format("the facade `{}` is not upright, and what is traced on one "
+                                        "is",
+                                        Printable(trace.facade)),
+                 .where = {Where::kKey, 0, "facade"}});
+  }
   return Make(state, std::make_shared<const Trace>(std::move(trace)));
 }
 
