@@ -74,6 +74,7 @@ struct Choices {
   ScriptOptions check;
   bool check_json = false;
   FmtOptions fmt;
+  TraceOptions trace;
   std::vector<std::string> help;
   std::string family;
   std::string code;
@@ -111,6 +112,14 @@ void AddScriptVerbs(CLI::App* app, Choices* choices, int* status) {
   verb = app->add_subcommand("inspect", "Runs a script and lists what it made, with measures.");
   AddScriptOptions(verb, &choices->inspect);
   verb->callback([choices, status] { *status = InspectVerb(choices->inspect); });
+
+  TraceOptions& trace = choices->trace;
+  verb = app->add_subcommand("trace", "Writes a script with the edges found on a photograph.");
+  verb->add_option("photo", trace.photo, "the photograph")->required()->type_name("PHOTO");
+  verb->add_option("-o,--output", trace.output,
+                   "the script, beside the photograph; named after it, if not given")
+      ->type_name("SCRIPT");
+  verb->callback([&trace, status] { *status = TraceVerb(trace); });
 
   FmtOptions& fmt = choices->fmt;
   verb = app->add_subcommand("fmt", "Puts scripts into the one layout.");

@@ -37,6 +37,12 @@ struct FmtOptions {
 };
 int FmtVerb(const FmtOptions& options);
 
+struct TraceOptions {
+  std::string photo;
+  std::string output;  // the script; "": named after the photograph, beside it
+};
+int TraceVerb(const TraceOptions& options);
+
 int HelpVerb(const std::vector<std::string>& words);
 int LibVerb(const std::string& family);  // "" for all
 int ExplainVerb(const std::string& code);

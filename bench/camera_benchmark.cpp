@@ -21,6 +21,7 @@
 #include "camera/paper_method.h"
 #include "camera/statistics.h"
 #include "camera/sweep.h"
+#include "tests/camera/circle_trials.h"
 
 namespace tranos::bench {
 namespace {
@@ -41,7 +42,8 @@ constexpr const char* kColumns[kParameters] = {"f mm", "r",   "u mm", "v mm", "s
                                                "φ °",  "κ °", "X0 m", "Y0 m", "Z0 m"};
 constexpr const char* kColours[kMethods] = {"#e69f00", "#56b4e9", "#d55e00", "#009e73", "#0072b2"};
 
-constexpr std::string_view kParts[] = {"speed", "penalty", "open", "metric", "section-6", "angles"};
+constexpr std::string_view kParts[] = {"speed",     "penalty", "open",   "metric",
+                                       "section-6", "angles",  "circles"};
 
 struct Settings {
   int trials = 2000;
@@ -513,6 +515,24 @@ void AddSpeed(Report& report) {
   report.Add("speed", Table(table));
 }
 
+// ---- circles
+
+void AddCircles(Report& report) {
+  constexpr int kSeeds = 10'000;
+  std::vector<TableRow> table{{"half circle, shorter half axis", "dots", "radius within 1 %",
+                               "within its 95 % interval", "root mean square error"}};
+  for (const auto& [radius_px, dots] :
+       {std::pair{200.0, 9}, {60.0, 15}, {60.0, 9}, {30.0, 9}, {15.0, 9}, {8.0, 9}}) {
+    const camera::scenes::CircleTrials trials =
+        camera::scenes::TrialsOf({.radius_px = radius_px, .dots = dots}, kSeeds);
+    table.push_back({fmt::format("{:.0f} px", radius_px), fmt::format("{}", dots),
+                     fmt::format("{:.1f} %", 100 * trials.within_one_per_cent),
+                     fmt::format("{:.1f} %", 100 * trials.within_95),
+                     fmt::format("{:.2f} %", 100 * trials.rms_share)});
+  }
+  report.Add("circles", Table(table));
+}
+
 // ---- files
 
 std::optional<Settings> SettingsOf(const std::vector<std::string_view>& words) {
@@ -538,7 +558,7 @@ int Main(const std::vector<std::string_view>& words) {
   const std::optional<Settings> settings = SettingsOf(words);
   if (!settings) {
     std::cerr << "usage: camera_benchmark [--trials N] [--write-docs DOCS] "
-                 "[speed|penalty|open|metric|section-6|angles...]; N from 20\n";
+                 "[speed|penalty|open|metric|section-6|angles|circles...]; N from 20\n";
     return 2;
   }
   Report report;
@@ -548,6 +568,7 @@ int Main(const std::vector<std::string_view>& words) {
   if (settings->Wants("metric")) AddMetric(report);
   if (settings->Wants("section-6")) AddSectionSix(*settings, report);
   if (settings->Wants("angles")) AddSmallAngles(*settings, report);
+  if (settings->Wants("circles")) AddCircles(report);
   return settings->docs.empty() || WriteDocs(settings->docs, report) ? 0 : 1;
 }
 

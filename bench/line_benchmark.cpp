@@ -10,9 +10,10 @@
 #include <array>
 #include <ctime>
 #include <iostream>
+#include <numeric>
 
 #include "bench/report.h"
-#include "tests/camera/real/detected.h"
+#include "tests/camera/real/facades.h"
 
 namespace tranos::bench {
 namespace {
@@ -116,6 +117,38 @@ void AddCastle(const std::vector<Known>& castle, const Settings& settings, Repor
   report.Add("castle-lines", Table(rows));
 }
 
+void AddFronts(const std::vector<real::Front>& fronts, Report& report) {
+  std::vector<TableRow> rows{
+      {"Street front", "windows", "box filled, mean", "least", "without rectification"}};
+  std::vector<double> all, before;
+  const auto mean = [](const std::vector<double>& values) {
+    return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+  };
+  const auto row = [&](const std::string& name, const std::vector<double>& filled,
+                       const std::vector<double>& unrectified) {
+    rows.push_back({name, fmt::format("{}", filled.size()), fmt::format("{:.3f}", mean(filled)),
+                    fmt::format("{:.3f}", *std::ranges::min_element(filled)),
+                    fmt::format("{:.3f}", mean(unrectified))});
+  };
+  for (const real::Front& front : fronts) {
+    const Automatic lines = FoundOn(front.photograph);
+    const real::Found found = Solved(front.photograph, lines, lines.axis);
+    const Mat3 front_from_dot =
+        lines.axis.empty() ? Mat3::Identity()
+                           : real::FrontFromDot(front.photograph, found, lines.lines, lines.axis);
+    std::vector<double> filled, unrectified;
+    for (const auto& window : front.windows) {
+      filled.push_back(real::BoxFilled(window, front_from_dot));
+      unrectified.push_back(real::BoxFilled(window, Mat3::Identity()));
+    }
+    row(front.photograph.name, filled, unrectified);
+    all.insert(all.end(), filled.begin(), filled.end());
+    before.insert(before.end(), unrectified.begin(), unrectified.end());
+  }
+  row("all", all, before);
+  report.Add("front-lines", Table(rows));
+}
+
 int Main(const std::vector<std::string_view>& words) {
   Settings settings;
   for (std::size_t i = 0; i < words.size(); ++i) {
@@ -136,6 +169,7 @@ int Main(const std::vector<std::string_view>& words) {
   Report report;
   AddYork(real::YorkUrban(*data), settings, report);
   AddCastle(real::Castle(*data), settings, report);
+  AddFronts(real::Fronts(*data), report);
   return settings.docs.empty() || WriteDocs(settings.docs, report) ? 0 : 1;
 }
 

@@ -11,7 +11,7 @@
 namespace tranos::camera {
 namespace {
 
-constexpr int kLongestSide = 2000;
+constexpr int kLongestSide = 2000, kShortestSide = 16;  // px, of what is searched
 constexpr double kSmoothing_px = 1;
 // A mean over pixels along an edge that have been smoothed by a Gaussian is as uncertain as one
 // over so many times fewer independent ones: the integral of the correlation, 2√π σ.
@@ -306,12 +306,13 @@ void SetDeviations(std::vector<Fit>& fits) {
 }  // namespace
 
 geom::Result<std::vector<ImageLine>> DetectLines(const Photo& photo, const LineDetection& options) {
-  if (std::min(photo.width_px, photo.height_px) < 16)
+  if (std::min(photo.width_px, photo.height_px) < kShortestSide)
     return tl::unexpected(geom::Error{geom::ErrorCode::kOutOfRange,
                                       "the photograph is less than 16 pixels wide or high"});
   const int longer = std::max(photo.width_px, photo.height_px);
-  const int factor = (longer + kLongestSide - 1) / kLongestSide;
-  const double shorter = std::min(photo.width_px, photo.height_px);
+  const int shorter = std::min(photo.width_px, photo.height_px);
+  const int factor =
+      std::min((longer + kLongestSide - 1) / kLongestSide, shorter / kShortestSide);
   const double min_px =
       (options.min_length_px > 0 ? options.min_length_px : std::max(12.0, 0.03 * shorter)) / factor;
 

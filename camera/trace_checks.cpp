@@ -256,6 +256,16 @@ MaybeError WrongWithOne(const Photograph& photograph, const Numbers& numbers) {
 
 }  // namespace
 
+std::vector<bool> RepeatsALine(const Photograph& photograph, const Numbers& numbers) {
+  std::vector<bool> repeats(photograph.traces.size(), false);
+  for (std::size_t j = 1; j < repeats.size(); ++j) {
+    for (std::size_t i = 0; i < j && !repeats[j]; ++i) {
+      repeats[j] = !repeats[i] && AreOne(photograph.traces[i], photograph.traces[j], numbers);
+    }
+  }
+  return repeats;
+}
+
 std::string NameOfPhotograph(std::span<const Photograph> photographs, std::ptrdiff_t photograph) {
   const std::string& name = photographs[photograph].name;
   return name.empty() ? fmt::format("photograph {}", photograph + 1) : "`" + name + "`";

@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "camera/traces.h"
 
@@ -23,5 +24,8 @@ geom::Error ErrorAmong(std::span<const Photograph>, std::ptrdiff_t photograph, g
 
 // How a photograph is called in a sentence: by its name, or its number.
 std::string NameOfPhotograph(std::span<const Photograph>, std::ptrdiff_t photograph);
+
+// Of each trace, whether it is of a line that an earlier one is of, which `Calibrate` refuses.
+std::vector<bool> RepeatsALine(const Photograph&, const Numbers&);
 
 }  // namespace tranos::camera

@@ -357,6 +357,18 @@ void Machine::CheckNumbers(const Evaluation& evaluation, const Trial& trial,
   }
 }
 
+namespace {
+
+// A trace's numbers hang on the sources of the run that made it.
+bool HasUncertainNumbers(const model::Element& element) {
+  const auto* trace = std::get_if<model::TracePtr>(&element.geometry);
+  return trace && std::ranges::any_of((*trace)->numbers, [](const Value& number) {
+    return number.derivatives() != nullptr;
+  });
+}
+
+}  // namespace
+
 // Everything before `calibrate` as the solved values make it, and the edit that leads there.
 model::Edit Machine::Adopt(TrialRun& solved, const model::State& before, Span span) {
   model::Edit edit;
@@ -378,7 +390,8 @@ model::Edit Machine::Adopt(TrialRun& solved, const model::State& before, Span sp
     const model::Entry &from = entries[id], &to = after.model.entries[id];
     const bool by_itself =
         from.standing == model::Standing::kInModel || from.standing == model::Standing::kConsumed;
-    if (by_itself && to.element && from.element->hash != to.element->hash) {
+    if (!by_itself || !to.element) continue;
+    if (from.element->hash != to.element->hash || HasUncertainNumbers(*to.element)) {
       edit.replaced.push_back(to.element);
     }
   }

@@ -27,10 +27,11 @@ std::vector<Command> Collect() {
                             SolidBooleanCommands(), SymmetryCommands(),
                             PlaneCommands(),        ViewCommands(),
                             OutputCommands(),       PhotographCommands(),
-                            RenderPhotoCommands(),  FacadeCommands(),
-                            OrthophotoCommands(),   PriorCommands(),
-                            TraceCommands(),        CalibrateCommands(),
-                            HistoryCommands(),      LaterCommands()}) {
+                            RenderPhotoCommands(),  OrthophotoCommands(),
+                            FacadeCommands(),       PriorCommands(),
+                            TraceCommands(),        DetectCommands(),
+                            CalibrateCommands(),    HistoryCommands(),
+                            LaterCommands()}) {
     all.insert(all.end(), family.begin(), family.end());
   }
   std::stable_sort(all.begin(), all.end(), [](const Command& a, const Command& b) {

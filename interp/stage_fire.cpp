@@ -256,7 +256,10 @@ void Stage::Fire(Span span) {
   TakeIds();
   if (fired.edit.ChangesModel()) history_.push_back(state_);
   if (links_.slice) NotePlaced(answers, fired.edit);
-  if (row.dots) trace_spans_[static_cast<ElementId>(state_.model.entries.size())] = active_.span;
+  for (std::size_t i = 0; i < fired.edit.added.size(); ++i) {
+    if (std::holds_alternative<model::TracePtr>(fired.edit.added[i]->geometry))
+      trace_spans_[static_cast<ElementId>(state_.model.entries.size() + i)] = active_.span;
+  }
   Commit(fired.edit, span);
   if (row.calibrates) {  // what it stands on cannot be undone
     history_base_ = history_.size();

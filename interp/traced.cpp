@@ -76,6 +76,7 @@ class Gathering {
     const double sigma_px = Noise(trace);
     switch (trace.kind) {
       case Trace::Kind::kDirection:
+        if (trace.axis < 0) return std::nullopt;
         if (const auto line = Line(trace)) return camera::DirectionTrace{*line, trace.axis};
         return std::nullopt;
       case Trace::Kind::kEdge: {

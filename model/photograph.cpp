@@ -53,6 +53,7 @@ void AddToHash(Hasher& hasher, const Trace& trace) {
 std::string TypeOf(const Trace& trace) {
   switch (trace.kind) {
     case Trace::Kind::kDirection:
+      return trace.axis < 0 ? "trace line" : "trace edge";
     case Trace::Kind::kEdge:
     case Trace::Kind::kElement:
       return "trace edge";

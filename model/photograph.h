@@ -45,7 +45,7 @@ struct Trace {
   Kind kind;
   std::uint32_t photograph = 0;  // id of the photograph's element, of a run
   std::vector<geom::Vec2> dots_px = {};
-  int axis = 0;                     // of kDirection: 0, 1, 2 for X, Y, Z
+  int axis = 0;                     // of kDirection: 0, 1, 2 for X, Y, Z; −1: not known yet
   std::vector<Value> numbers = {};  // in SI, with their derivatives: 6 of kEdge, 3 of kPoint, …
   std::shared_ptr<const Element> of = nullptr;
   std::string facade = {};

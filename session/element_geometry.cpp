@@ -81,7 +81,7 @@ class GeometryWriter {
     out_->Close(']').Key("numbers").Open('[');
     for (const model::Value& number : trace->numbers) out_->Length(number.number());
     out_->Close(']');
-    if (trace->kind == model::Trace::Kind::kDirection) {
+    if (trace->kind == model::Trace::Kind::kDirection && trace->axis >= 0) {
       out_->Key("axis").String(
           std::string_view("xyz").substr(static_cast<std::size_t>(trace->axis), 1));
     }

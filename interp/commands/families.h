@@ -31,6 +31,7 @@ std::span<const Command> PhotographCommands();  // attach, cameras
 std::span<const Command> RenderPhotoCommands();
 std::span<const Command> PriorCommands();
 std::span<const Command> TraceCommands();
+std::span<const Command> DetectCommands();
 std::span<const Command> CalibrateCommands();
 std::span<const Command> FacadeCommands();  // set, construct, recover
 std::span<const Command> OrthophotoCommands();

@@ -22,7 +22,6 @@ constexpr Later kLater[] = {
     Row("construct section", "construct", "A drawing of the model cut by a plane."),
     Row("attach drawing", "photograph",
         "Brings in a drawing as a reference: DXF, or an image with a scale."),
-    Row("detect edges", "photograph", "Proposes the image lines of a photograph's edges."),
     Row("plot", "output", "Draws a sheet at a scale."),
     Row("highlight", "output", "Shows elements in a colour that stands out, for debugging."),
 };

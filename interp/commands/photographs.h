@@ -6,6 +6,8 @@
 
 namespace tranos::interp {
 
+// Where traces lie that name no facade.
+inline constexpr std::string_view kMainFacade = "main";
 inline constexpr double kDegree = geom::kPi / 180;
 
 // The photograph or camera that a statement means: by its name in a bare word, by photo= (or the

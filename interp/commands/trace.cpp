@@ -54,7 +54,7 @@ CommandResult MakeTrace(const State& state, const Answers& answers, Trace trace,
   for (const geom::Vec3& dot : answers.points) trace.dots_px.emplace_back(dot.head<2>());
   trace.photograph = (*photograph)->id;
   trace.noise_px = state.drawing.settings->noise_px;
-  trace.facade = answers.Text("facade", "main");
+  trace.facade = answers.Text("facade", kMainFacade);
   const ElementPtr known = model::FindFacade(state.model, trace.facade);
   if (known && answers.Has("facade") && model::FacadeOf(*known).plane.y.z() < 1 - 1e-9) {
     return Fail({.code = Code::kBadTrace,
@@ -140,6 +140,14 @@ CommandResult TraceEdge(const State& state, const Answers& answers) {
                    .where = {Where::kKey, 0, "of"}});
     }
   }
+  return MakeTrace(state, answers, std::move(trace), 0);
+}
+
+CommandResult TraceLine(const State& state, const Answers& answers) {
+  Trace trace{.kind = Kind::kDirection, .axis = -1};
+  const auto samples = SamplesOf(answers);
+  if (!samples) return Fail(samples.error());
+  trace.samples = *samples;
   return MakeTrace(state, answers, std::move(trace), 0);
 }
 
@@ -230,7 +238,7 @@ CommandResult TraceCircle(const State& state, const Answers& answers) {
 
 constexpr Key kPhoto = {"photo", Type::kElement,
                         "the photograph; the one last attached or set without"};
-constexpr Key kFacade = {"facade", Type::kName, "the facade that it lies on", {}, "main"};
+constexpr Key kFacade = {"facade", Type::kName, "the facade that it lies on", {}, kMainFacade};
 constexpr Key kEdgeKeys[] = {
     {"from", Type::kPoint, "where the edge begins"},
     {"to", Type::kPoint, "where it ends"},
@@ -238,6 +246,7 @@ constexpr Key kEdgeKeys[] = {
     {"samples", Type::kCount,
      "how many pixels the line was fitted to; `edge`: one for each pixel of its length", "edge"},
     kPhoto};
+constexpr Key kLineKeys[] = {kEdgeKeys[3], kPhoto};
 constexpr Key kPointKeys[] = {{"at", Type::kPoint, "where the point is", {}, {}, -1, true}, kPhoto};
 constexpr Key kRectangleKeys[] = {{"a", Type::kLength, "its width, along X", {}, {}, -1, true},
                                   {"b", Type::kLength, "its height, along Z", {}, {}, -1, true},
@@ -259,6 +268,10 @@ constexpr Example kEdgeExamples[] = {
     {TRANOS_PHOTO "place line xy=0,0,6 dl=10 as eaves; trace edge of=eaves dot=102,211 dot=340,188",
      "true"},
     {TRANOS_PHOTO "trace edge x dot=102,211", "E0402"}};
+constexpr Example kLineExamples[] = {
+    {TRANOS_PHOTO "trace line samples=edge photo=hall dot=102.5,211.0 dot=340.2,188.4 as sill",
+     "sill.type == \"trace line\""},
+    {TRANOS_PHOTO "trace line dot=102,211 dot=102,211", "E0903"}};
 constexpr Example kPointExamples[] = {
     {TRANOS_PHOTO "trace point at=[0,0,6m] photo=hall dot=211,290 as corner",
      "len(corner.dots) == 1"},
@@ -309,6 +322,15 @@ constexpr Command kCommands[] = {
              .options = "x|y|z",
              .examples = kEdgeExamples,
              .execute = TraceEdge}),
+    Tracing({.words = "trace line",
+             .family = "photograph",
+             .summary = "The image line of an edge of which nothing is known yet, for `detect "
+                        "vanishing points`; `calibrate` leaves it out.",
+             .least = 2,
+             .most = kMostDots,
+             .keys = kLineKeys,
+             .examples = kLineExamples,
+             .execute = TraceLine}),
     Tracing({.words = "trace point",
              .family = "photograph",
              .summary = "The image of a point whose place is known.",

@@ -83,7 +83,7 @@ place arc
     def test_of_the_command_line(self):
         ran = self.tranos("--help")
         self.assertEqual((ran.status, ran.err), (0, ""))
-        for verb in "run check inspect fmt replay diff help explain docs version".split():
+        for verb in "run check inspect trace fmt replay diff help explain docs version".split():
             self.assertRegex(ran.out, rf"\n  {verb} +[A-Z].*\.\n")
             told = self.tranos(verb, "--help")
             self.assertEqual(told.status, 0)

@@ -175,8 +175,11 @@ TEST(DetectLines, RefusesWhatIsTooSmallAndTakesTheSmallest) {
     ASSERT_FALSE(lines);
     EXPECT_EQ(lines.error().code, geom::ErrorCode::kOutOfRange);
   }
-  const auto lines = DetectLines(Drawn(16, 16, [](const Vec2& p) { return p.x() > 8 ? 200 : 20; }));
-  EXPECT_TRUE(lines);
+  for (const auto& [width, height] : {std::pair(16, 16), std::pair(9000, 20)}) {
+    const auto lines =
+        DetectLines(Drawn(width, height, [](const Vec2& p) { return p.x() > 8 ? 200 : 20; }));
+    EXPECT_TRUE(lines);
+  }
 }
 
 TEST(DetectLines, OfALargePhotographAreInItsOwnPixels) {

@@ -14,12 +14,12 @@ namespace {
 bool IsCode(std::string_view expect) { return FindCode(expect).has_value(); }
 bool IsCarriedOut(const Command& row) { return row.exists(); }
 
-// The examples' photograph.
+// The examples' photographs.
 tl::expected<std::string, HostError> ReadExampleFile(std::string_view path) {
-  if (path != "facade.png") {
+  if (path != "facade.png" && path != "house.png") {
     return tl::make_unexpected(HostError{HostError::kMissing, "no such file"});
   }
-  std::ifstream file(TRANOS_TEST_PHOTOGRAPH, std::ios::binary);
+  std::ifstream file(TRANOS_TEST_PHOTOGRAPHS + std::string(path), std::ios::binary);
   return std::string(std::istreambuf_iterator<char>(file), {});
 }
 

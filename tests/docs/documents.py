@@ -22,7 +22,8 @@ MAX_PICTURE_BYTES = 200_000
 SHORT_SCRIPT_LINES = 60
 MAX_SCRIPT_LINES = 400  # a whole church; an example is read at a glance and far shorter
 VERBATIM = "cruciform_dome.trn"
-PHOTOGRAPH = Path(__file__).parent.parent / "language/photograph/facade.png"
+PHOTOGRAPHS = [Path(__file__).parent.parent / "language/photograph" / name
+               for name in ("facade.png", "house.png")]
 SECONDS = 60
 
 FENCE = re.compile(r"^```(.*)$")
@@ -150,8 +151,9 @@ def check_block(tranos, block, beside):
     with tempfile.TemporaryDirectory() as folder:
         for name, text in beside.items():
             Path(folder, name).write_text(text, encoding="utf-8")
-        if PHOTOGRAPH.name in block.text:
-            shutil.copy(PHOTOGRAPH, folder)
+        for photograph in PHOTOGRAPHS:
+            if photograph.name in block.text:
+                shutil.copy(photograph, folder)
         script = Path(folder, "example.trn")
         script.write_text(block.text, encoding="utf-8")
         printed, said, report = run(tranos, script, expected.arguments)

@@ -175,7 +175,7 @@ TEST(Orthophoto, WhatLiesInItsPlaneOrBehindItHidesNothing) {
 TEST(Orthophoto, WhatIsBehindTheCameraOrBesideThePictureIsLeftOut) {
   // A wall that runs from before the camera past it.
   camera::Camera along;
-  along.parameters << 36, 1, 0, 0, 90 * kDegree, 0, 90 * kDegree, 0, 4, -3, 2;
+  along.parameters << 36, 1, 0, 0, 90 * kDegree, 0, 90 * kDegree, 0, 4, -1, 2;
   model::Orthophoto made = OrthophotoOf(along, kFrame);
   made.pixels = Taken(along, kFrame, kFront, ToneAt);
   const RectifiedFacade rectified = *Rectify(made, 2);

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "tests/camera/real/detected.h"
+#include "tests/camera/real/facades.h"
 
 namespace tranos::camera::real {
 namespace {
@@ -129,6 +129,22 @@ TEST_F(RealPhotographs, OfTheCastleGiveTheirCamerasByTheLinesFoundOnThem) {
   EXPECT_LE(Quantile(FocalErrors(found, castle, Loose::kCounts), 0.5), 0.03);
   EXPECT_LE(Quantile(UprightErrors(found, castle), 0.5), 0.8);
   EXPECT_LE(Quantile(RotationErrors(found, castle, 4), 0.5), 1.2);
+}
+
+TEST_F(RealPhotographs, OfStreetFrontsMakeBoxesOfTheirWindows) {
+  double filled = 0;
+  std::size_t windows = 0;
+  for (const Front& front : Fronts(data())) {
+    const auto lines = DetectLines(PhotoOf(front.photograph));
+    ASSERT_TRUE(lines) << front.photograph.name;
+    const auto directions = FindVanishingDirections(*lines, front.photograph.frame);
+    ASSERT_TRUE(directions) << front.photograph.name;
+    const Found found = FoundCamera(TracedLines(front.photograph, *lines, directions->axis));
+    const Mat3 front_from_dot = FrontFromDot(front.photograph, found, *lines, directions->axis);
+    for (const auto& window : front.windows) filled += BoxFilled(window, front_from_dot);
+    windows += front.windows.size();
+  }
+  EXPECT_GE(filled / static_cast<double>(windows), 0.9);
 }
 
 }  // namespace

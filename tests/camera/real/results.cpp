@@ -90,14 +90,15 @@ Found FoundCamera(Traced traced, Loss loss) {
   found.edges = static_cast<int>(std::ranges::count_if(
       photograph.traces, [](const Trace& t) { return std::holds_alternative<DirectionTrace>(t); }));
   found.edges += traced.numbers.values.size() > 0 ? 1 : 0;
-  if (!estimate || estimate->parameters[kFocal].free()) return found;
+  if (!estimate) return found;
   const Camera& camera = estimate->camera;
+  found.camera_from_world = CameraFromWorld(camera.parameters);
+  found.dot_from_camera = photograph.frame.DotFromFrame() * FrameFromCamera(camera.parameters);
+  if (estimate->parameters[kFocal].free()) return found;
   const double pitch_mm = photograph.frame.pitch_mm().x();
   found.focal_px = camera[kFocal] / pitch_mm;
   found.sigma_px = estimate->parameters[kFocal].sigma / pitch_mm;
   found.noise_px = estimate->noise_px;
-  found.camera_from_world = CameraFromWorld(camera.parameters);
-  found.dot_from_camera = photograph.frame.DotFromFrame() * FrameFromCamera(camera.parameters);
   found.is_found = true;
   return found;
 }

@@ -26,13 +26,13 @@ void AssumeDefaults(Photograph&);
 
 struct Found {
   std::string name;
-  bool is_found = false;  // a camera with a focal length; nothing below means anything otherwise
+  bool is_found = false;  // a camera with a focal length; else the numbers mean nothing
   int edges = 0;
   double focal_px = 0;  // in x
   double sigma_px = 0;  // of it
   double noise_px = 0;
   Mat3 camera_from_world = Mat3::Identity();
-  Mat3 dot_from_camera = Mat3::Identity();
+  Mat3 dot_from_camera = Mat3::Identity();  // together they put vanishing points where seen
 
   // A focal length that data and priors leave uncertain by more than a fifth of it.
   bool is_loose() const { return sigma_px > 0.2 * focal_px; }

@@ -114,7 +114,7 @@ TEST(Row, PromptsFitTheManner) {
 
 TEST(Row, LaterCommandsAreKnown) {
   for (const std::string_view words :
-       {"place dimension", "recover facade", "detect edges", "set facade", "plot"}) {
+       {"place dimension", "attach drawing", "highlight", "plot"}) {
     const Command* row = FindCommand(words);
     ASSERT_NE(row, nullptr) << words;
     EXPECT_FALSE(IsCarriedOut(*row)) << words;

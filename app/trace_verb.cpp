@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+
+#include <array>
+
+#include "app/console.h"
+#include "app/script_run.h"
+
+namespace tranos::app {
+
+namespace {
+
+using model::Trace;
+
+// The photograph's name in the script: what it is called on the disk may be no name.
+constexpr std::string_view kName = "picture";
+
+// A string of the language with this text.
+std::string Quoted(const std::string& text) {
+  std::string quoted = "\"";
+  for (const char c : text) {
+    if (c == '\n') {
+      quoted += "\\n";
+      continue;
+    }
+    if (c == '"' || c == '\\') quoted += '\\';
+    if (c == '{' || c == '}') quoted += c;
+    quoted += c;
+  }
+  return quoted + "\"";
+}
+
+std::string NameOf(const std::string& path) { return path.substr(path.rfind('/') + 1); }
+
+interp::ScriptResult RunOn(const std::string& photo, const std::string& text) {
+  const interp::Host host{[&photo](std::string_view) { return ReadNamedFile(photo); },
+                          [](std::string_view) {}};
+  return interp::RunScript(NameOf(photo), text, {}, {}, host);
+}
+
+std::string LineOf(const Trace& trace, std::string_view words, std::string_view name, int number) {
+  std::string text = fmt::format("{} samples={:.0f}", words, trace.samples);
+  for (const geom::Vec2& dot : trace.dots_px)
+    text += fmt::format(" dot={:.3f},{:.3f}", dot.x(), dot.y());
+  return text + fmt::format(" as {}{}\n", name, number);
+}
+
+// The traces that the run left, those of one direction together, longest first.
+std::string TracesOf(const model::State& state) {
+  struct Part {
+    std::string_view heading, words, name;
+    std::string text = {};
+    int count = 0;
+  };
+  std::array<Part, 4> parts{
+      Part{"along X, to the right and the more across the line of sight", "trace edge x", "x"},
+      Part{"along Y, into the scene", "trace edge y", "y"},
+      Part{"along Z, upright", "trace edge z", "z"},
+      Part{"of no direction: left out by `calibrate`", "trace line", "line"}};
+  state.model.ForEach([&](const model::ElementPtr& element) {
+    const auto* trace = std::get_if<model::TracePtr>(&element->geometry);
+    if (!trace) return;
+    const int axis = (*trace)->axis;
+    Part& part = parts[axis < 0 ? 3 : static_cast<std::size_t>(axis)];
+    part.text += LineOf(**trace, part.words, part.name, ++part.count);
+  });
+  std::string text;
+  for (const Part& part : parts) {
+    if (part.count > 0) text += fmt::format("\n# {} {}\n{}", part.count, part.heading, part.text);
+  }
+  return text;
+}
+
+// Why nothing is written, where something stands in the way.
+std::string InTheWay(const TraceOptions& options) {
+  if (NameOf(options.output).empty() || FolderOf(options.output) != FolderOf(options.photo)) {
+    return "a script reads what is beside it: `" + interp::Printable(options.output) +
+           "` is to be in the photograph's folder";
+  }
+  const auto there = ReadNamedFile(options.output);
+  if (there || there.error().kind != HostError::kMissing)
+    return "`" + interp::Printable(options.output) + "` is there already, and may have been edited";
+  return "";
+}
+
+}  // namespace
+
+int TraceVerb(const TraceOptions& given) {
+  TraceOptions options = given;
+  if (options.output.empty()) {
+    const std::string name = NameOf(options.photo);
+    options.output = FolderOf(options.photo) + "/" + name.substr(0, name.rfind('.')) + ".trn";
+  }
+  const auto bytes = ReadNamedFile(options.photo);
+  if (!bytes) {
+    PrintFailure("`" + interp::Printable(options.photo) +
+                 "` cannot be read: " + bytes.error().detail);
+    return kFileFailed;
+  }
+  const std::string in_the_way = InTheWay(options);
+  if (!in_the_way.empty()) {
+    PrintFailure(in_the_way);
+    return kFileFailed;
+  }
+  const std::string head = fmt::format("attach photo {} as {}\nprior default\nnoise=estimated\n",
+                                       Quoted(NameOf(options.photo)), kName);
+  interp::ScriptResult result =
+      RunOn(options.photo, head + "detect edges\ndetect vanishing points\n");
+  const bool directed = !result.diagnostics.has_errors();
+  if (!directed) result = RunOn(options.photo, head + "detect edges\n");
+  if (result.diagnostics.has_errors()) {
+    for (const interp::Diagnostic& diagnostic : result.diagnostics.list())
+      PrintFailure(diagnostic.message);
+    return kScriptIsWrong;
+  }
+  std::string text = "# The edges that `tranos trace` found. Keep, name, change or delete them.\n" +
+                     head + TracesOf(result.outcome.state);
+  if (directed) text += fmt::format("\ncalibrate robust=true\nreport camera {}\n", kName);
+  if (auto written = ReplaceNamedFile(options.output, text); !written) {
+    PrintFailure("`" + interp::Printable(options.output) +
+                 "` cannot be written: " + written.error().detail);
+    return kFileFailed;
+  }
+  if (!directed) {
+    PrintError(
+        "the edges show no two directions of a building: which are parallel to X, Y and Z is left "
+        "to be said\n");
+  }
+  PrintOut("`" + interp::Printable(options.output) + "` holds the edges\n");
+  return kFine;
+}
+
+}  // namespace tranos::app
