@@ -2,7 +2,6 @@
 #include "camera/fspy.h"
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <nlohmann/json.hpp>
 
@@ -73,31 +72,6 @@ double UnitOf(const json& settings) {
   return 1;
 }
 
-// xPositive, zNegative, …
-std::optional<int> AxisIn(const json& axis) {
-  if (!axis.is_string()) return std::nullopt;
-  const std::string& name = axis.get_ref<const std::string&>();
-  if (name.size() < 2 || name[0] < 'x' || name[0] > 'z') return std::nullopt;
-  return name[0] - 'x';
-}
-
-using Line = std::array<Vec2, 2>;
-
-std::optional<std::array<Line, 2>> LinesIn(const json& vanishing_point) {
-  const json& list = MemberOf(vanishing_point, "lineSegments");
-  if (!list.is_array() || list.size() != 2) return std::nullopt;
-  std::array<Line, 2> lines;
-  for (int i = 0; i < 2; ++i) {
-    for (int end = 0; end < 2; ++end) {
-      if (!list[i].is_array() || list[i].size() != 2) return std::nullopt;
-      const auto point = PointIn(list[i][end]);
-      if (!point) return std::nullopt;
-      lines[i][end] = *point;
-    }
-  }
-  return lines;
-}
-
 }  // namespace
 
 FspyCamera FspyCameraOf(const FramedCamera& framed) {
@@ -136,10 +110,6 @@ Vec2 FspyShareOf(const Vec2& dot_px, const Eigen::Vector2i& size_px) {
   return (dot_px + Vec2(0.5, 0.5)).cwiseQuotient(size_px.cast<double>());
 }
 
-Vec2 DotOfFspyShare(const Vec2& share, const Eigen::Vector2i& size_px) {
-  return share.cwiseProduct(size_px.cast<double>()) - Vec2(0.5, 0.5);
-}
-
 bool IsFspyProject(std::span<const std::byte> file) {
   return file.size() >= kWord.size() &&
          std::equal(kWord.begin(), kWord.end(), file.begin(),
@@ -172,14 +142,12 @@ std::string FspyProjectOf(std::string_view settings, std::string_view picture) {
   return bytes;
 }
 
-geom::Result<FramedCamera> CameraInFspy(std::string_view text) {
+geom::Result<std::optional<FramedCamera>> CameraInFspy(std::string_view text) {
   const auto settings = JsonIn(text);
   if (!settings) return tl::unexpected(settings.error());
   const bool is_project = settings->is_object() && settings->contains("calibrationSettingsBase");
   const json& stored = is_project ? MemberOf(*settings, "cameraParameters") : *settings;
-  if (is_project && !stored.is_object()) {
-    return Unreadable("the fSpy project has no camera: it was saved without a solution");
-  }
+  if (is_project && stored.is_null()) return std::nullopt;
   const auto size = SizeIn(MemberOf(stored, "imageWidth"), MemberOf(stored, "imageHeight"));
   const auto focal = NumberIn(MemberOf(stored, "relativeFocalLength"));
   const auto principal = PointIn(MemberOf(stored, "principalPoint"));
@@ -189,42 +157,6 @@ geom::Result<FramedCamera> CameraInFspy(std::string_view text) {
   }
   pose->topRightCorner<3, 1>() *= UnitOf(*settings);
   return FramedCameraOf(FspyCamera{*size, *focal, *principal, *pose});
-}
-
-geom::Result<std::vector<FspySegment>> SegmentsInFspy(std::string_view text) {
-  const auto settings = JsonIn(text);
-  if (!settings) return tl::unexpected(settings.error());
-  const json& base = MemberOf(*settings, "calibrationSettingsBase");
-  const json& second_settings = MemberOf(*settings, "calibrationSettings2VP");
-  const json& second_points = MemberOf(*settings, "controlPointsState2VP");
-  const auto first_axis = AxisIn(MemberOf(base, "firstVanishingPointAxis"));
-  const auto first =
-      LinesIn(MemberOf(MemberOf(*settings, "controlPointsStateBase"), "firstVanishingPoint"));
-  if (!first_axis || !first) return Unreadable("the fSpy project has no control lines");
-  std::vector<FspySegment> segments;
-  const auto add = [&](int axis, const std::array<Line, 2>& lines) {
-    for (const Line& line : lines) segments.push_back({axis, line[0], line[1]});
-  };
-  add(*first_axis, *first);
-  const json& mode = MemberOf(MemberOf(*settings, "globalSettings"), "calibrationMode");
-  if (mode == "OneVanishingPoint") return segments;
-  const auto second_axis = AxisIn(MemberOf(base, "secondVanishingPointAxis"));
-  auto second = LinesIn(MemberOf(second_points, "secondVanishingPoint"));
-  if (MemberOf(second_settings, "quadModeEnabled") == true) {
-    const auto& [a, b] = *first;
-    second = {Line{a[0], b[0]}, Line{a[1], b[1]}};
-  }
-  if (!second_axis || !second) return Unreadable("the fSpy project has no second vanishing point");
-  if (*first_axis == *second_axis) {
-    return tl::unexpected(
-        Error{ErrorCode::kOutOfRange, "both vanishing points of the fSpy project are of one axis"});
-  }
-  add(*second_axis, *second);
-  if (MemberOf(second_settings, "principalPointMode") != "FromThirdVanishingPoint") return segments;
-  const auto third = LinesIn(MemberOf(second_points, "thirdVanishingPoint"));
-  if (!third) return Unreadable("the fSpy project has no third vanishing point");
-  add(3 - *first_axis - *second_axis, *third);
-  return segments;
 }
 
 }  // namespace tranos::camera

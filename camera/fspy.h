@@ -8,7 +8,6 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "camera/framed_camera.h"
 
@@ -31,7 +30,6 @@ Vec2 FspyPointOf(const Vec2& dot_px, const Eigen::Vector2i& size_px);
 Vec2 DotOfFspyPoint(const Vec2& point, const Eigen::Vector2i& size_px);
 // A control point is a share of the width and of the height, from the top left corner.
 Vec2 FspyShareOf(const Vec2& dot_px, const Eigen::Vector2i& size_px);
-Vec2 DotOfFspyShare(const Vec2& share, const Eigen::Vector2i& size_px);
 
 // A project: the word, the version 1, the lengths of the two parts, the settings as JSON, the
 // picture as the bytes of its file.
@@ -45,19 +43,9 @@ geom::Result<FspyProject> FspyProjectIn(std::span<const std::byte> file);
 std::string FspyProjectOf(std::string_view settings, std::string_view picture);
 
 // The camera in a project's settings, or in what fSpy exports as JSON. Its position is in metres
-// where a reference distance has a unit; else it is as it stands. The fields of view, which are
-// wrong for portraits, are not read. Errors: kUnreadable (no JSON, no camera or one without a
-// solution), kTooLarge, those of FramedCameraOf.
-geom::Result<FramedCamera> CameraInFspy(std::string_view settings);
-
-// A line that someone drew along an axis, its ends as control points.
-struct FspySegment {
-  int axis;  // 0, 1, 2 for X, Y, Z
-  Vec2 from, to;
-};
-// The control lines that the project's solution stands on: those of one vanishing point or of two,
-// of two in a quad the sides across, and those of the third where the principal point is from it.
-// Errors: kUnreadable, kTooLarge; kOutOfRange (two vanishing points on one axis).
-geom::Result<std::vector<FspySegment>> SegmentsInFspy(std::string_view settings);
+// where a reference distance has a unit; else it is as it stands. Nothing if a project was saved
+// without a solution. The fields of view, which are wrong for portraits, are not read. Errors:
+// kUnreadable (no JSON, no camera), kTooLarge, those of FramedCameraOf.
+geom::Result<std::optional<FramedCamera>> CameraInFspy(std::string_view settings);
 
 }  // namespace tranos::camera

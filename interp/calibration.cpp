@@ -294,6 +294,7 @@ Fired Machine::Calibrated(Solution solution, const model::State& before, Span sp
       photograph.unknown_dimensions.push_back(solvables_[source].dimension);
     }
     Warn(found[p], *element, traced.trace_ids[p], span);
+    photograph.camera_file.clear();
     photograph.estimate = std::make_shared<const camera::Estimate>(std::move(found[p]));
     std::erase_if(fired.edit.replaced,
                   [&](const ElementPtr& replaced) { return replaced->id == element->id; });
@@ -363,8 +364,8 @@ namespace {
 bool HasUncertainNumbers(const model::Element& element) {
   const auto* trace = std::get_if<model::TracePtr>(&element.geometry);
   return trace && std::ranges::any_of((*trace)->numbers, [](const Value& number) {
-    return number.derivatives() != nullptr;
-  });
+           return number.derivatives() != nullptr;
+         });
 }
 
 }  // namespace

@@ -161,13 +161,15 @@ std::vector<std::string> PhotographMembers() {
 
 std::vector<std::string> CameraReport(const model::Element& element, const Photograph& photograph) {
   const camera::Estimate& estimate = *photograph.estimate;
-  const bool stated = !photograph.attached;
+  const bool stated = !photograph.attached || !photograph.camera_file.empty();
   std::vector<std::string> lines;
-  lines.push_back(fmt::format(
-      "camera {}: {} × {} px, {:g} mm × {:g} mm{}", element.name_or_empty(),
-      photograph.frame.size_px.x(), photograph.frame.size_px.y(), photograph.frame.size_mm.x(),
-      photograph.frame.size_mm.y(),
-      photograph.format_is_stated ? "" : " (no format given: 36 mm along the longer side)"));
+  lines.push_back(fmt::format("camera {}: {} × {} px, {:g} mm × {:g} mm{}", element.name_or_empty(),
+                              photograph.frame.size_px.x(), photograph.frame.size_px.y(),
+                              photograph.frame.size_mm.x(), photograph.frame.size_mm.y(),
+                              photograph.format_is_stated ? ""
+                              : photograph.camera_file.empty()
+                                  ? " (no format given: 36 mm along the longer side)"
+                                  : " (no format given: that of the camera's file)"));
   for (int p = 0; p < camera::kParameters; ++p) {
     lines.push_back(ParameterLine(estimate, static_cast<Parameter>(p), stated));
   }

@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "camera/framed_camera.h"
 #include "interp/diagnostic.h"
 #include "interp/host.h"
 #include "interp/type.h"
@@ -101,9 +102,10 @@ using CommandResult = tl::expected<Fired, CommandError>;
 // What a few commands need beside the state.
 struct Source;
 struct PhotographFile {
-  model::Hash128 content;
-  Eigen::Vector2i size_px;
+  model::Hash128 content = {};
+  Eigen::Vector2i size_px{0, 0};  // zero if no photograph was read from it
   std::shared_ptr<const camera::PhotoFile> picture = nullptr;  // null where no pixels are at hand
+  std::optional<camera::FramedCamera> camera = {};             // if one was read from it
 };
 using PhotographFiles = std::map<std::string, PhotographFile>;  // read so far, by path
 struct Surroundings {

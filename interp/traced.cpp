@@ -24,10 +24,18 @@ constexpr int kCurvePoints = 513;
 class Gathering {
  public:
   Gathering(const model::State& state, ElementId only) : state_(state) {
+    std::unordered_set<ElementId> traced;
+    ForEachPart([&](const ElementPtr& element) {
+      const auto* trace = std::get_if<model::TracePtr>(&element->geometry);
+      if (trace) traced.insert((*trace)->photograph);
+    });
     ForEachPart([&](const ElementPtr& element) {
       const auto* photograph = std::get_if<model::PhotographPtr>(&element->geometry);
-      const bool meant =
-          only == model::kNoElement ? photograph && (*photograph)->attached : element->id == only;
+      const bool is_attached = photograph && (*photograph)->attached;
+      const bool has_camera = photograph && !(*photograph)->camera_file.empty();
+      const bool meant = only == model::kNoElement
+                             ? is_attached && (!has_camera || traced.contains(element->id))
+                             : element->id == only;
       if (photograph && meant) Add(*element, **photograph);
     });
     NameFacades();

@@ -26,7 +26,8 @@ struct Traced {
   double noise_px = 0.5;  // of the first trace
   bool noise_is_estimated = false;
 };
-// Of the photograph with this id, or of all attached ones.
+// Of the photograph with this id, or of all attached ones, but those whose camera was read and on
+// which nothing is traced.
 Traced TracedIn(const model::State& state, model::ElementId only = model::kNoElement);
 
 // The numbers' values, without derivatives.

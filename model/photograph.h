@@ -25,9 +25,10 @@ struct Photograph {
   std::shared_ptr<const camera::PhotoFile> picture = nullptr;
   bool attached = false;  // what `calibrate` adjusts; a rendered one is not until it is attached
   camera::Frame frame = {};
+  std::string camera_file = {};  // that the estimate was read from; "" if it was not
   bool format_is_stated = true;  // else the longer side is taken for 36 mm
   camera::Prior priors[camera::kIntrinsics] = {};
-  // What `calibrate` found, or the camera as it was stated; null until then.
+  // What `calibrate` found, or the camera as it was stated or read; null until then.
   std::shared_ptr<const camera::Estimate> estimate = nullptr;
   std::vector<Dimension> unknown_dimensions = {};  // of each of the estimate's unknowns
 };

@@ -65,6 +65,10 @@ class GeometryWriter {
     out_->Key("size_px").Open('[').Integer(size_px.x()).Integer(size_px.y()).Close(']');
     out_->Key("size_mm").Open('[').Ratio(size_mm.x()).Ratio(size_mm.y()).Close(']');
     Priors(photograph->priors);
+    if (!photograph->camera_file.empty()) {
+      out_->Key("camera_file").String(photograph->camera_file);
+      out_->Key("format_is_stated").Boolean(photograph->format_is_stated);
+    }
     if (!photograph->estimate) return;
     out_->Key("camera").Open('[');
     for (int i = 0; i < camera::kParameters; ++i) {

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "camera/json_text.h"
+
 namespace tranos::session {
 
 namespace {
@@ -145,6 +147,16 @@ namespace {
 
 constexpr std::string_view kPhotographType = "\"type\":\"photograph\"";
 
+// The camera that a photograph got from a file.
+std::optional<camera::FramedCamera> CameraIn(const Json& geometry, const Eigen::Vector2i& size_px) {
+  const auto size_mm = camera::NumbersIn(camera::MemberOf(geometry, "size_mm"), 2);
+  const auto numbers = camera::NumbersIn(camera::MemberOf(geometry, "camera"), camera::kParameters);
+  if (!size_mm || !numbers) return std::nullopt;
+  camera::FramedCamera framed{{{(*size_mm)[0], (*size_mm)[1]}, size_px}, {}};
+  framed.camera.parameters = Eigen::Map<const camera::ParameterVector>(numbers->data());
+  return framed;
+}
+
 // What is known of the photographs that the recorded run attached; their pixels are not needed to
 // run it again. Lines that do not say it are passed over: the replay then finds them different.
 interp::PhotographFiles PhotographsIn(std::string_view steps) {
@@ -163,8 +175,15 @@ interp::PhotographFiles PhotographsIn(std::string_view steps) {
       if (!file || !content || !size || size->size() != 2) continue;
       const auto hash = model::HashFromHex(*content);
       if (!hash || !(*size)[0].is_number() || !(*size)[1].is_number()) continue;
-      photographs.emplace(
-          *file, interp::PhotographFile{*hash, {(*size)[0].get<int>(), (*size)[1].get<int>()}});
+      const Eigen::Vector2i size_px((*size)[0].get<int>(), (*size)[1].get<int>());
+      interp::PhotographFile& known = photographs[*file];
+      if (known.size_px.x() == 0) known = {*hash, size_px, nullptr, known.camera};
+      if (const std::string* camera_file = Text(geometry, "camera_file")) {
+        // On the file's own format, unless the script always stated another.
+        auto& of_file = photographs[*camera_file].camera;
+        const bool is_own = camera::MemberOf(geometry, "format_is_stated") == false;
+        if (!of_file || is_own) of_file = CameraIn(geometry, size_px);
+      }
     }
   }
   return photographs;

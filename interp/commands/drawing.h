@@ -55,8 +55,8 @@ double NoiseOf(const model::State& state, model::ElementId photograph);
 
 // The point of the active facade that a dot of the active photograph is of. E0901, E0902 and E0908
 // where one of them is missing, E0909 where the dot is outside the photograph, of no point of the
-// facade, or of one that is uncertain by more than a tenth of its distance. Where the camera is open,
-// dots are drawn on the facade of a traced rectangle alone, by the rectangle's homography.
+// facade, or of one that is uncertain by more than a tenth of its distance. Where the camera is
+// open, dots are drawn on the facade of a traced rectangle alone, by the rectangle's homography.
 tl::expected<PlacedPoint, CommandError> DrawDot(const model::State& state, const geom::Vec2& dot_px,
                                                 const DotSource& source_of);
 

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <span>
 
+#include "camera/camera_file.h"
+#include "camera/fspy.h"
 #include "camera/photo.h"
 #include "interp/camera_report.h"
 #include "interp/commands/families.h"
@@ -36,11 +38,8 @@ tl::expected<geom::Vec2, CommandError> FormatOf(const Value& given) {
                .where = AtKey("format")});
 }
 
-// Its size and content; a file is read once in a run.
-tl::expected<PhotographFile, CommandError> ReadPhotograph(const std::string& file,
-                                                          const Surroundings& surroundings) {
-  const auto known = surroundings.photographs.find(file);
-  if (known != surroundings.photographs.end()) return known->second;
+tl::expected<std::string, CommandError> Read(const std::string& file, std::string_view key,
+                                             const Surroundings& surroundings) {
   if (!surroundings.host.read) {
     return Fail({.code = Code::kCannotRead, .message = "there are no files to be read here"});
   }
@@ -49,22 +48,129 @@ tl::expected<PhotographFile, CommandError> ReadPhotograph(const std::string& fil
     const bool outside = bytes.error().kind == HostError::kOutside;
     return Fail({.code = outside ? Code::kOutsideSandbox : Code::kCannotRead,
                  .message = fmt::format("`{}`: {}", Printable(file), bytes.error().detail),
-                 .where = AtKey("file")});
+                 .where = AtKey(key)});
   }
-  const auto size = camera::PhotoSizeOf(std::as_bytes(std::span(bytes->data(), bytes->size())));
-  if (!size) {
-    return Fail({.code = Code::kNoPhotograph,
-                 .message = fmt::format("`{}` is no photograph that can be read: {}",
-                                        Printable(file), size.error().detail),
-                 .help = "photographs are PNG, JPEG or TIFF",
-                 .where = AtKey("file")});
+  return *std::move(bytes);
+}
+
+std::span<const std::byte> BytesOf(std::string_view text) { return std::as_bytes(std::span(text)); }
+
+tl::unexpected<CommandError> NoPhotographIn(const std::string& file, const geom::Error& error) {
+  return Fail({.code = Code::kNoPhotograph,
+               .message = fmt::format("`{}` is no photograph that can be read: {}", Printable(file),
+                                      error.detail),
+               .help = "photographs are PNG, JPEG or TIFF, or in a project of fSpy",
+               .where = AtKey("file")});
+}
+
+tl::unexpected<CommandError> NoCameraIn(const std::string& file, std::string_view why,
+                                        std::string_view key) {
+  return Fail(
+      {.code = Code::kBadCamera,
+       .message = fmt::format("`{}` holds no camera that can be read: {}", Printable(file), why),
+       .label = "cameras are read from fSpy's projects, from the JSON that it exports, and "
+                "from what `export exact` wrote",
+       .where = AtKey(key)});
+}
+
+// As a journal keeps its numbers, so that a replay, which has nothing else, finds the same camera.
+camera::FramedCamera AsJournalsKeepIt(camera::FramedCamera framed) {
+  const auto on_grid = [](double number) { return std::round(number * 0x1p40) / 0x1p40; };
+  framed.frame.size_mm = framed.frame.size_mm.unaryExpr(on_grid);
+  framed.camera.parameters = framed.camera.parameters.unaryExpr(on_grid);
+  return framed;
+}
+
+// The photograph in it, and the camera if it is a project that holds one; a file is read once in a
+// run.
+tl::expected<PhotographFile, CommandError> ReadPhotograph(const std::string& file,
+                                                          const Surroundings& surroundings) {
+  PhotographFile& known = surroundings.photographs[file];
+  if (known.size_px.x() > 0) return known;
+  auto bytes = Read(file, "file", surroundings);
+  if (!bytes) return Fail(bytes.error());
+  PhotographFile read{.content = model::Hasher().Text(*bytes).Finish()};
+  if (camera::IsFspyProject(BytesOf(*bytes))) {
+    const auto project = camera::FspyProjectIn(BytesOf(*bytes));
+    if (!project) return NoPhotographIn(file, project.error());
+    const auto camera = camera::CameraInFspy(project->settings);
+    if (!camera) return NoCameraIn(file, camera.error().detail, "file");
+    if (*camera) read.camera = AsJournalsKeepIt(**camera);
+    *bytes = std::string(reinterpret_cast<const char*>(project->picture.data()),
+                         project->picture.size());
   }
-  const model::Hash128 content = model::Hasher().Text(*bytes).Finish();
-  return surroundings.photographs
-      .emplace(file, PhotographFile{content,
-                                    {size->width_px, size->height_px},
-                                    std::make_shared<const camera::PhotoFile>(*std::move(bytes))})
-      .first->second;
+  const auto size = camera::PhotoSizeOf(BytesOf(*bytes));
+  if (!size) return NoPhotographIn(file, size.error());
+  read.size_px = {size->width_px, size->height_px};
+  read.picture = std::make_shared<const camera::PhotoFile>(*std::move(bytes));
+  return known = std::move(read);
+}
+
+// The camera in a file that `camera=` names.
+tl::expected<camera::FramedCamera, CommandError> ReadCamera(const std::string& file,
+                                                            const Surroundings& surroundings) {
+  PhotographFile& known = surroundings.photographs[file];
+  if (known.camera) return *known.camera;
+  const auto bytes = Read(file, "camera", surroundings);
+  if (!bytes) return Fail(bytes.error());
+  const auto read = camera::CameraInFile(BytesOf(*bytes));
+  if (!read) return NoCameraIn(file, read.error().detail, "camera");
+  if (!*read) return NoCameraIn(file, "the project was saved without a solution", "camera");
+  return *(known.camera = AsJournalsKeepIt(**read));
+}
+
+// What no camera can be.
+std::optional<CommandError> NoCamera(const camera::Camera& c) {
+  const auto refuse = [](std::string message, std::string_view key) {
+    return CommandError{
+        .code = Code::kOutOfRange, .message = std::move(message), .where = AtKey(key)};
+  };
+  if (!(c[camera::kFocal] > 0 && c[camera::kFocal] < 1e7)) {
+    return refuse("a focal length is above zero, and below 10 km", "f");
+  }
+  if (!(c[camera::kAspect] > 1e-3 && c[camera::kAspect] < 1e3)) {
+    return refuse("an aspect ratio is near 1", "aspect");
+  }
+  if (!(c[camera::kSkew] > kDegree && c[camera::kSkew] < kPi - kDegree)) {
+    return refuse("the angle between a dot's axes is near 90 degrees", "skew");
+  }
+  for (const camera::Parameter angle : {camera::kOmega, camera::kPhi, camera::kKappa}) {
+    if (!(std::abs(c[angle]) <= 1e3 * kPi)) return refuse("the angle is too large", "omega");
+  }
+  if (!(c.position_m().norm() < kFarthest_m) ||
+      !(c.parameters.segment<2>(camera::kPrincipalX).norm() < 1e7)) {
+    return refuse("the camera would be out of reach", "x");
+  }
+  return std::nullopt;
+}
+
+// Gives the photograph the camera in the file, on the frame that was stated or else on the
+// camera's.
+std::optional<CommandError> TakeCamera(const camera::FramedCamera& given, const std::string& file,
+                                       std::string_view key, model::Photograph* photograph) {
+  camera::Frame& frame = photograph->frame;
+  if (given.frame.size_px != frame.size_px) {
+    return CommandError{
+        .code = Code::kBadCamera,
+        .message = fmt::format("the camera in `{}` is of a photograph of {} × {} pixels, and this "
+                               "one has {} × {}",
+                               Printable(file), given.frame.size_px.x(), given.frame.size_px.y(),
+                               frame.size_px.x(), frame.size_px.y()),
+        .help = "attach the photograph that the camera was found for",
+        .where = AtKey(key)};
+  }
+  if (!photograph->format_is_stated) frame.size_mm = given.frame.size_mm;
+  const auto framed = camera::FramedCameraOf(frame, camera::DotFromCamera(given),
+                                             camera::CameraFromWorld(given.camera.parameters),
+                                             given.camera.position_m());
+  if (!framed) return NoCameraIn(file, framed.error().detail, key).value();
+  camera::Estimate estimate;
+  estimate.camera = AsJournalsKeepIt(*framed).camera;
+  if (const auto error = NoCamera(estimate.camera))
+    return NoCameraIn(file, error->message, key).value();
+  photograph->estimate = std::make_shared<const camera::Estimate>(std::move(estimate));
+  photograph->camera_file = file;
+  return std::nullopt;
 }
 
 // The picture that is attached: in a file, or one made by `render photo`.
@@ -91,49 +197,32 @@ tl::expected<PhotographFile, CommandError> PictureMeant(const State& state, cons
 
 CommandResult AttachPhoto(const State& state, const Answers& answers,
                           const Surroundings& surroundings) {
-  const auto picture = PictureMeant(state, answers, surroundings);
-  if (!picture) return Fail(picture.error());
-  model::Photograph photograph{.file = answers.Text("file"),
-                               .content = picture->content,
-                               .picture = picture->picture,
-                               .attached = true};
-  photograph.frame.size_px = picture->size_px;
+  const std::string file = answers.Text("file");
+  const auto read = PictureMeant(state, answers, surroundings);
+  if (!read) return Fail(read.error());
+  model::Photograph photograph{
+      .file = file, .content = read->content, .picture = read->picture, .attached = true};
+  photograph.frame.size_px = read->size_px;
   if (const Value* format = answers.Find("format")) {
     const auto size_mm = FormatOf(*format);
     if (!size_mm) return Fail(size_mm.error());
     photograph.frame.size_mm = *size_mm;
   } else {
     photograph.format_is_stated = false;
-    photograph.frame.size_mm = UnstatedFormat(photograph.frame.size_px);
+    photograph.frame = camera::FrameOfPixels(photograph.frame.size_px);
+  }
+  if (answers.Has("camera")) {
+    const auto given = ReadCamera(answers.Text("camera"), surroundings);
+    if (!given) return Fail(given.error());
+    if (auto error = TakeCamera(*given, answers.Text("camera"), "camera", &photograph)) {
+      return Fail(*error);
+    }
+  } else if (read->camera) {
+    if (auto error = TakeCamera(*read->camera, file, "file", &photograph)) return Fail(*error);
   }
   Fired fired = *Make(state, std::make_shared<const model::Photograph>(std::move(photograph)));
   fired.edit.photograph = model::kAddedBase;
   return fired;
-}
-
-// What no camera can be.
-std::optional<CommandError> NoCamera(const camera::Camera& c) {
-  const auto refuse = [](std::string message, std::string_view key) {
-    return CommandError{
-        .code = Code::kOutOfRange, .message = std::move(message), .where = AtKey(key)};
-  };
-  if (!(c[camera::kFocal] > 0 && c[camera::kFocal] < 1e7)) {
-    return refuse("a focal length is above zero, and below 10 km", "f");
-  }
-  if (!(c[camera::kAspect] > 1e-3 && c[camera::kAspect] < 1e3)) {
-    return refuse("an aspect ratio is near 1", "aspect");
-  }
-  if (!(c[camera::kSkew] > kDegree && c[camera::kSkew] < kPi - kDegree)) {
-    return refuse("the angle between a dot's axes is near 90 degrees", "skew");
-  }
-  for (const camera::Parameter angle : {camera::kOmega, camera::kPhi, camera::kKappa}) {
-    if (!(std::abs(c[angle]) <= 1e3 * kPi)) return refuse("the angle is too large", "omega");
-  }
-  if (!(c.position_m().norm() < kFarthest_m) ||
-      !(c.parameters.segment<2>(camera::kPrincipalX).norm() < 1e7)) {
-    return refuse("the camera would be out of reach", "x");
-  }
-  return std::nullopt;
 }
 
 CommandResult PlaceCamera(const State& state, const Answers& answers) {
@@ -249,7 +338,11 @@ CommandResult StepCamera(const State& state, const Answers& answers) {
 constexpr Key kPhotoKey = {"photo", Type::kElement,
                            "the photograph; the one last attached or set without"};
 constexpr Key kAttachKeys[] = {
-    {"file", Type::kString, "the photograph: PNG, JPEG or TIFF; or the name of one that was made"},
+    {"file", Type::kString,
+     "the photograph: PNG, JPEG or TIFF, or a project of fSpy; or the name of one that was made"},
+    {"camera", Type::kString,
+     "a file with its camera: the JSON that fSpy exports, a project, or what `export exact` wrote; "
+     "that of the project without"},
     {"format",
      Type::kLength,
      "width and height of the negative or sensor; 36 mm along the longer "
@@ -295,6 +388,9 @@ constexpr auto kStepKeys = StepKeys();
 
 constexpr Example kAttachExamples[] = {
     {"attach photo \"facade.png\" format=36mm,24mm as hall", "hall.width == 1600px"},
+    {"attach photo \"facade.png\" camera=\"facade.camera.json\" as hall",
+     "hall.skew within 89deg +- 1e-9deg"},
+    {"attach photo \"facade.png\" camera=\"facade.png\"", "E0911"},
     {"attach photo \"facade.txt\"", "E0701"},
     {"place block xy=0,0,0 dl=8,6\n" TRANOS_CAMERA
      "render photo camera=paper seed=1 as p; attach photo p format=36mm,24mm as fire",
@@ -322,7 +418,7 @@ constexpr Command kCommands[] = {
     {.words = "attach photo",
      .family = "photograph",
      .summary = "Brings in a photograph, from a file or made by `render photo`, with the format of "
-                "its negative or sensor.",
+                "its negative or sensor, and the camera that another program found.",
      .keys = kAttachKeys,
      .asks = "photograph",
      .string_key = "file",

@@ -67,11 +67,6 @@ ElementPtr WithPhotograph(const model::Element& element, model::Photograph photo
                              std::make_shared<const model::Photograph>(std::move(photograph)));
 }
 
-geom::Vec2 UnstatedFormat(const Eigen::Vector2i& size_px) {
-  constexpr double kLongerSide_mm = 36;
-  return size_px.cast<double>() * (kLongerSide_mm / size_px.maxCoeff());
-}
-
 tl::expected<camera::PhotoPtr, CommandError> PixelsOf(const model::Element& photograph) {
   const model::Photograph& taken = PhotographOf(photograph);
   if (model::IsStatedCamera(taken)) {

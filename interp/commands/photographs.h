@@ -21,8 +21,6 @@ tl::expected<model::ElementPtr, CommandError> PhotographAt(const model::State& s
 const model::Photograph& PhotographOf(const model::Element& element);
 model::ElementPtr WithPhotograph(const model::Element& element, model::Photograph photograph);
 CommandError NoCameraYet(const model::Element& photograph);
-// Width and height in mm of a negative of which nothing is said: 36 mm along its longer side.
-geom::Vec2 UnstatedFormat(const Eigen::Vector2i& size_px);
 // What is said of a dot that lies more than a quarter of the photograph's size beyond its border,
 // further than an edge that leaves the picture is followed.
 std::optional<CommandError> OutsidePhotograph(const camera::Frame& frame, const geom::Vec2& dot_px,

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "camera/framed_camera.h"
 #include "interp/commands/families.h"
 #include "interp/commands/firing.h"
 #include "interp/commands/photographs.h"
@@ -188,7 +189,7 @@ CommandResult RenderPhoto(const State& state, const Answers& answers,
   if (!taken) return Fail(taken.error());
   model::Photograph photograph{.file = "", .content = taken->content, .picture = taken->picture};
   photograph.format_is_stated = false;
-  photograph.frame = {UnstatedFormat(taken->size_px), taken->size_px};
+  photograph.frame = camera::FrameOfPixels(taken->size_px);
   Fired fired = *Make(state, std::make_shared<const model::Photograph>(std::move(photograph)));
   if (!file.empty() && taken->picture) {
     fired.edit.outputs.emplace_back(model::PhotoFileRequest{

@@ -165,6 +165,69 @@ class Exchange(harness.ProgramTest):
             self.assertEqual(picture, plain.rpartition("/")[2] + "_square.png")
         self.assert_refused(PHOTOGRAPH + 'export "a\\nimport os.py"\n', "E0703")
 
+    def test_an_fspy_project_comes_back_with_its_camera(self):
+        """The square picture's camera: of the exported one as it would be if it had been taken without skew."""
+        self.exported(PHOTOGRAPH + 'export "hall.fspy"\nexport fspy "hall.json"\n')
+        exact = json.loads(self.out("hall.camera.json"))
+        for name in ["hall.fspy", "hall_square.png", "hall.json"]:
+            shutil.copy(self.folder / "out" / name, self.folder)
+        for attach in ['attach photo "hall.fspy" as hall', 'attach photo "hall_square.png" camera="hall.json" as hall',
+                       'attach photo "hall_square.png" camera="hall.fspy" as hall']:
+            (camera,) = self.report_of(attach, "--no-output")["cameras"]
+            f_px = camera["f_mm"] / 36 * exact["square"]["size_px"][0]
+            self.assertAlmostEqual(f_px, exact["square"]["K"][0][0], places=6)
+            for name in ["omega_deg", "phi_deg", "kappa_deg"]:
+                self.assertAlmostEqual(camera[name], exact[name], places=9)
+            for found, expected in zip(camera["position_m"], exact["position_m"]):
+                self.assertAlmostEqual(found, expected, places=9)
+            self.assertAlmostEqual(camera["skew_deg"], 90, places=9)
+
+    def test_a_camera_from_a_file_is_replayed_without_it(self):
+        self.exported(PHOTOGRAPH + 'export "hall.fspy"\nexport exact "exact.json"\n')
+        for name in ["hall.fspy", "exact.json"]:
+            shutil.copy(self.folder / "out" / name, self.folder)
+        text = ('attach photo "hall.fspy" as a\nattach photo "facade.png" camera="exact.json" as b\n'
+                'attach photo "facade.png" camera="exact.json" format=40mm,26.675mm as c\nexport "c.yaml"\n')
+        ran = self.run_script(text, "--no-output", "--journal", "journal.jsonl")
+        self.assertEqual(ran.status, 0, ran.err)
+        for name in ["hall.fspy", "exact.json", "facade.png"]:
+            (self.folder / name).unlink()
+        replayed = self.tranos("replay", "journal.jsonl")
+        self.assertEqual(replayed.status, 0, replayed.err)
+        self.assertNotIn("W0004", replayed.err)
+
+    def test_projects_that_are_none_are_refused(self):
+        """Cut off, of huge lengths, of another version, with no JSON, with no picture, with a camera that is none."""
+        self.exported(PHOTOGRAPH + 'export "hall.fspy"\n')
+        whole = self.out("hall.fspy")
+        settings = struct.unpack("<I", whole[8:12])[0]
+        stored = json.loads(whole[16:16 + settings])
+
+        def project(text, picture=whole[16 + settings:]):
+            return struct.pack("<4sIII", b"fspy", 1, len(text), len(picture)) + text + picture
+
+        def with_camera(**changes):
+            changed = dict(stored, cameraParameters=dict(stored["cameraParameters"], **changes))
+            return project(json.dumps(changed).encode())
+
+        huge = b"\xff\xff\xff\xff"
+        cases = {
+            "E0901": [b"fspy", whole[:15], whole[:-1], whole[:16 + settings], whole[:8] + huge + whole[12:],
+                      whole[:12] + huge + whole[16:], whole[:4] + b"\x99" + whole[5:], b"FSPY" + whole[4:],
+                      project(json.dumps(stored).encode(), b""), project(json.dumps(stored).encode(), b"no picture")],
+            "E0911": [project(b"{"), project(b"no JSON"), project(b""), project(b"[" * 100_000), project(b"[]"),
+                      with_camera(imageWidth=10), with_camera(imageWidth="wide"), with_camera(relativeFocalLength=-1),
+                      with_camera(relativeFocalLength=1e300), with_camera(cameraTransform={"rows": [[0] * 4] * 4}),
+                      with_camera(relativeFocalLength=1e6), with_camera(cameraTransform=None), with_camera(principalPoint={"x": 0})],
+        }
+        for code, files in cases.items():
+            for file in files:
+                self.write("bad.fspy", file)
+                self.assert_refused('attach photo "bad.fspy" as bad\n', code, line=1)
+        self.write("open.fspy", project(json.dumps(dict(stored, cameraParameters=None)).encode()))
+        self.assertEqual(self.report_of('attach photo "open.fspy" as hall', "--no-output")["cameras"], [])
+        self.assert_refused('attach photo "facade.png" camera="open.fspy"\n', "E0911")
+
     def test_two_cameras_are_not_written_into_one_file(self):
         other = CAMERA.replace("as hall", "as other")
         self.exported(PHOTOGRAPH + 'export "a.yaml"; export "a.py"\n')

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "camera/calibrate.h"
+#include "camera/trace_checks.h"
 #include "tests/camera/comparison.h"
 #include "tests/camera/scenes.h"
 
@@ -226,6 +227,17 @@ TEST(CalibrateErrors, ErrorsCountTracesThroughThePhotographs) {
 }
 
 TEST(CalibrateErrors, TellsThatTooLittleIsTraced) { EXPECT_NE(ErrorOf(Scene{}).part, -2); }
+
+TEST(RepeatsALine, MarksTheLaterOfTwoThatLieOnEachOther) {
+  const auto along = [](const Vec2& a, const Vec2& b, int axis) {
+    return DirectionTrace{FitImageLine({a, b}, 0.5).value(), axis};
+  };
+  Photograph photograph;
+  photograph.traces = {along({100, 100}, {500, 120}, 0), along({200, 105}, {400, 115}, 0),
+                       along({200, 135}, {400, 145}, 0), along({100, 100}, {500, 120}, 1),
+                       along({510, 120.5}, {600, 125}, 0)};
+  EXPECT_EQ(RepeatsALine(photograph, {}), (std::vector{false, true, false, true, false}));
+}
 
 }  // namespace
 }  // namespace tranos::camera

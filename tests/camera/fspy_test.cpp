@@ -9,6 +9,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "camera/camera_file.h"
 #include "camera/photo.h"
 
 namespace tranos::camera {
@@ -35,22 +36,27 @@ std::string ProjectSettings(std::string_view unit = "Meters",
          std::string(kStored) + "}";
 }
 
+FramedCamera StoredIn(std::string_view text) {
+  const auto read = CameraInFspy(text);
+  EXPECT_TRUE(read.has_value() && read->has_value());
+  return read && *read ? **read : FramedCamera{};
+}
+
 TEST(Fspy, ItsJsonIsReadInItsOwnAxesAndHalvesOfTheLongerSide) {
-  const auto read = CameraInFspy(kStored);
-  ASSERT_TRUE(read.has_value()) << read.error().detail;
+  const FramedCamera read = StoredIn(kStored);
   Mat3 k;
   k << 750, 0, 549.5, 0, 750, 399.5, 0, 0, 1;
-  EXPECT_LT((DotFromCamera(*read) - k).cwiseAbs().maxCoeff(), kRounding);
+  EXPECT_LT((DotFromCamera(read) - k).cwiseAbs().maxCoeff(), kRounding);
   // It looks along Y with Z up.
   Mat3 level;
   level << 1, 0, 0, 0, 0, -1, 0, 1, 0;
-  EXPECT_LT((CameraFromWorld(read->camera.parameters) - level).cwiseAbs().maxCoeff(), kRounding);
-  EXPECT_LT((read->camera.position_m() - Vec3(3, -20, 2)).norm(), kRounding);
+  EXPECT_LT((CameraFromWorld(read.camera.parameters) - level).cwiseAbs().maxCoeff(), kRounding);
+  EXPECT_LT((read.camera.position_m() - Vec3(3, -20, 2)).norm(), kRounding);
 }
 
 TEST(Fspy, AProjectsWorldIsInTheUnitOfItsReferenceDistance) {
   const auto at = [](std::string_view unit, std::string_view axis = "\"xPositive\"") -> Vec3 {
-    return CameraInFspy(ProjectSettings(unit, axis))->camera.position_m();
+    return StoredIn(ProjectSettings(unit, axis)).camera.position_m();
   };
   EXPECT_LT((at("Feet") - 0.3048 * Vec3(3, -20, 2)).norm(), kRounding);
   EXPECT_LT((at("Meters") - Vec3(3, -20, 2)).norm(), kRounding);
@@ -79,14 +85,13 @@ RC_GTEST_PROP(Fspy, CamerasComeBack, ()) {
   RC_ASSERT((again.world_from_camera - camera.world_from_camera).cwiseAbs().maxCoeff() < 1e-7);
 }
 
-TEST(Fspy, PointsAndSharesOfDotsGoThereAndBack) {
+TEST(Fspy, DotsHavePointsOnItsImagePlaneAndShares) {
   const Eigen::Vector2i size_px(640, 480);
   EXPECT_LT(FspyPointOf({319.5, 239.5}, size_px).norm(), kRounding);
   EXPECT_LT((FspyPointOf({-0.5, -0.5}, size_px) - Vec2(-1, 0.75)).norm(), kRounding);
   EXPECT_LT((FspyShareOf({639.5, 479.5}, size_px) - Vec2(1, 1)).norm(), kRounding);
   const Vec2 dot(12, 345);
   EXPECT_LT((DotOfFspyPoint(FspyPointOf(dot, size_px), size_px) - dot).norm(), kRounding);
-  EXPECT_LT((DotOfFspyShare(FspyShareOf(dot, size_px), size_px) - dot).norm(), kRounding);
 }
 
 TEST(Fspy, AProjectHasItsTwoPartsAsTheyWerePut) {
@@ -138,7 +143,7 @@ TEST(Fspy, TextsWithoutACameraAreRefused) {
   for (const std::string_view text : {"", "no JSON", "{", "[]", "null", "{}", "{\"a\": 1e999}"}) {
     ExpectNoCamera(text, ErrorCode::kUnreadable);
   }
-  ExpectNoCamera(R"({"calibrationSettingsBase": {}, "cameraParameters": null})",
+  ExpectNoCamera(R"({"calibrationSettingsBase": {}, "cameraParameters": 1})",
                  ErrorCode::kUnreadable);
   ExpectNoCamera(with("1000", "1000.5"), ErrorCode::kUnreadable);
   ExpectNoCamera(with("1000", "0"), ErrorCode::kUnreadable);
@@ -154,11 +159,58 @@ TEST(Fspy, TextsWithoutACameraAreRefused) {
   ExpectNoCamera(std::string(17 << 20, ' '), ErrorCode::kTooLarge);
 }
 
+TEST(Fspy, AProjectWithoutASolutionHasNoCamera) {
+  for (const std::string_view text :
+       {R"({"calibrationSettingsBase": {}, "cameraParameters": null})",
+        R"({"calibrationSettingsBase": {}})"}) {
+    const auto read = CameraInFspy(text);
+    ASSERT_TRUE(read.has_value());
+    EXPECT_FALSE(read->has_value());
+  }
+}
+
+std::string ExactText(std::string_view r = "[[1, 0, 0], [0, 0, -1], [0, 1, 0]]") {
+  return R"({"tranos_camera": 1, "size_px": [1000, 600], "format_mm": [50, 30],
+    "K": [[750, 20, 549.5], [0, 800, 399.5], [0, 0, 1]], "t_m": [-3, 2, 20], "R": )" +
+         std::string(r) + "}";
+}
+
+TEST(CameraFile, AnExactCameraKeepsItsSkewAndFormat) {
+  const std::string text = ExactText();
+  const auto read = CameraInFile(BytesOf(text));
+  ASSERT_TRUE(read.has_value()) << read.error().detail;
+  Mat3 k;
+  k << 750, 20, 549.5, 0, 800, 399.5, 0, 0, 1;
+  EXPECT_LT((DotFromCamera(**read) - k).cwiseAbs().maxCoeff(), kRounding);
+  EXPECT_LT(((*read)->camera.position_m() - Vec3(3, -20, 2)).norm(), kRounding);
+  EXPECT_EQ((*read)->frame.size_mm, Vec2(50, 30));
+  EXPECT_NEAR((*read)->camera[kFocal], 37.5, kRounding);
+}
+
+TEST(CameraFile, ProjectsAndTheirTextsHoldOneCamera) {
+  const std::string text = ProjectSettings(), project = FspyProjectOf(text, "picture");
+  for (const std::string& file : {text, project, std::string(kStored)}) {
+    const auto read = CameraInFile(BytesOf(file));
+    ASSERT_TRUE(read.has_value() && read->has_value());
+    EXPECT_LT(((*read)->camera.position_m() - Vec3(3, -20, 2)).norm(), kRounding);
+  }
+}
+
+TEST(CameraFile, ExactCamerasThatAreNotCompleteAreRefused) {
+  for (const std::string& text :
+       {std::string(R"({"tranos_camera": 2})"), std::string(R"({"tranos_camera": 1})"),
+        ExactText("[[1, 0], [0, 1]]"), ExactText("1"),
+        ExactText("[[1, 0, 0], [0, 1, 0], [0, 0, -1]]")}) {
+    EXPECT_FALSE(CameraInFile(BytesOf(text)).has_value()) << text;
+  }
+}
+
 // Any bytes end with a value or an error. Half of the files begin as a project.
 RC_GTEST_PROP(Fspy, AnyBytesAreReadOrRefused, ()) {
   std::string file = *rc::gen::container<std::string>(rc::gen::arbitrary<char>());
   if (*rc::gen::arbitrary<bool>()) {
     file = FspyProjectOf(ProjectSettings(), "picture");
+    if (*rc::gen::arbitrary<bool>()) file = ExactText();
     const int changes = *rc::gen::inRange(0, 4);
     for (int i = 0; i < changes; ++i) {
       file[*rc::gen::inRange<std::size_t>(0, file.size())] = *rc::gen::arbitrary<char>();
@@ -167,8 +219,8 @@ RC_GTEST_PROP(Fspy, AnyBytesAreReadOrRefused, ()) {
   }
   const auto project = FspyProjectIn(BytesOf(file));
   if (!project) RC_ASSERT(!project.error().detail.empty());
-  const auto read = CameraInFspy(project ? project->settings : std::string_view(file));
-  if (read) RC_ASSERT(read->camera.parameters.allFinite());
+  const auto read = CameraInFile(BytesOf(file));
+  if (read && *read) RC_ASSERT((*read)->camera.parameters.allFinite());
 }
 
 // Projects of fSpy's own, where they are beside the project.
@@ -184,9 +236,8 @@ TEST(FspyOfItsOwn, AStoredCameraIsReadAsItsVanishingPointsSay) {
   if (file.empty()) GTEST_SKIP() << "skipped: no test photographs";
   const auto project = FspyProjectIn(BytesOf(file));
   ASSERT_TRUE(project.has_value());
-  const auto read = CameraInFspy(project->settings);
-  ASSERT_TRUE(read.has_value()) << read.error().detail;
-  const Mat3 k = DotFromCamera(*read);
+  const FramedCamera read = StoredIn(project->settings);
+  const Mat3 k = DotFromCamera(read);
   EXPECT_NEAR(k(0, 0), 1976.23, 0.01);
   EXPECT_NEAR(k(0, 2) + 0.5, 1813.05, 0.01);
   EXPECT_NEAR(k(1, 2) + 0.5, 907.21, 0.01);
@@ -196,8 +247,8 @@ TEST(FspyOfItsOwn, AStoredCameraIsReadAsItsVanishingPointsSay) {
                             {1.4060917742346188, 0.9935767982124877},
                             {0.5300705963528702, -2.4261905184903783}};
   for (int axis = 0; axis < 3; ++axis) {
-    const Vec3 dot = k * CameraFromWorld(read->camera.parameters) * Vec3::Unit(axis);
-    const Vec2 said = DotOfFspyPoint(vanishing[axis], read->frame.size_px);
+    const Vec3 dot = k * CameraFromWorld(read.camera.parameters) * Vec3::Unit(axis);
+    const Vec2 said = DotOfFspyPoint(vanishing[axis], read.frame.size_px);
     EXPECT_LT((dot.hnormalized() - said).norm(), 1e-6);
   }
 }
@@ -207,7 +258,7 @@ TEST(FspyOfItsOwn, ProjectsWithoutASolutionOrOfAnotherVersionAreRefused) {
   if (file.empty()) GTEST_SKIP() << "skipped: no test photographs";
   const auto project = FspyProjectIn(BytesOf(file));
   ASSERT_TRUE(project.has_value());
-  ExpectNoCamera(project->settings, ErrorCode::kUnreadable);
+  EXPECT_FALSE(CameraInFspy(project->settings)->has_value());
   ExpectUnreadable(RealFile("invalid_project_version.fspy"), "version 153");
 }
 

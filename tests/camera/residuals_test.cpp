@@ -79,15 +79,14 @@ TEST(Residuals, DerivativesAgreeWithDifferences) {
   }
 }
 
-TEST(Residuals, DerivativesByNumbersAgreeWithDifferences) {
-  Joint joint = JointOf(Townhouse());
+// With each number an unknown of its own.
+void ExpectDerivativesByNumbers(Joint joint, std::span<const NumberIndex> given_planes) {
   const Eigen::VectorXd known = Disturbed(joint.state);
-  // Each number its own unknown.
   const auto n = static_cast<int>(joint.numbers.values.size());
   joint.unknowns.resize(n);
   for (int i = 0; i < n; ++i) joint.unknowns[i] = {"n", joint.numbers.values[i]};
   joint.numbers.by_unknown = Eigen::MatrixXd::Identity(n, n);
-  joint.layout = LayoutOf(joint.photographs, joint.unknowns);
+  joint.layout = LayoutOf(joint.photographs, joint.unknowns, given_planes);
   Eigen::VectorXd state(joint.layout.columns);
   state << known.head<kParameters>(), joint.numbers.values, known.tail(known.size() - kParameters);
   const Linearised at = At(joint, state);
@@ -102,6 +101,24 @@ TEST(Residuals, DerivativesByNumbersAgreeWithDifferences) {
               2e-6 * std::max(1.0, difference.cwiseAbs().maxCoeff()))
         << "number " << i;
   }
+}
+
+TEST(Residuals, DerivativesByNumbersAgreeWithDifferences) {
+  ExpectDerivativesByNumbers(JointOf(Townhouse()), {});
+}
+
+TEST(Residuals, OfAFacadeWhosePlaneIsGivenHangOnItsNumbers) {
+  Scene scene = Townhouse();
+  const NumberIndex azimuth = scene.list.Add(kPi / 2);
+  scene.list.Add(-10.0);  // the distance of x = 10, to the left of the way along it
+  const std::vector<NumberIndex> given_planes{-1, azimuth};
+  Joint joint{{scene.photograph}, {}, {}, scene.list.numbers(), {}};
+  joint.layout = LayoutOf(joint.photographs, joint.unknowns, given_planes);
+  EXPECT_EQ(joint.layout.facade_column[1], -1);
+  const std::vector<Camera> cameras{scene.truth};
+  joint.state = StartState(joint.photographs, joint.layout, joint.numbers, cameras, {});
+  EXPECT_LT(At(joint, joint.state).residuals.cwiseAbs().maxCoeff(), 1e-8);
+  ExpectDerivativesByNumbers(joint, given_planes);
 }
 
 TEST(Residuals, AnEdgeIsJudgedByItsInfiniteLine) {

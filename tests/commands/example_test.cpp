@@ -14,9 +14,9 @@ namespace {
 bool IsCode(std::string_view expect) { return FindCode(expect).has_value(); }
 bool IsCarriedOut(const Command& row) { return row.exists(); }
 
-// The examples' photographs.
+// The examples' photographs, and a camera.
 tl::expected<std::string, HostError> ReadExampleFile(std::string_view path) {
-  if (path != "facade.png" && path != "house.png") {
+  if (path != "facade.png" && path != "house.png" && path != "facade.camera.json") {
     return tl::make_unexpected(HostError{HostError::kMissing, "no such file"});
   }
   std::ifstream file(TRANOS_TEST_PHOTOGRAPHS + std::string(path), std::ios::binary);

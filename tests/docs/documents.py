@@ -23,7 +23,7 @@ SHORT_SCRIPT_LINES = 60
 MAX_SCRIPT_LINES = 400  # a whole church; an example is read at a glance and far shorter
 VERBATIM = "cruciform_dome.trn"
 PHOTOGRAPHS = [Path(__file__).parent.parent / "language/photograph" / name
-               for name in ("facade.png", "house.png")]
+               for name in ("facade.png", "facade.camera.json", "house.png")]
 SECONDS = 60
 
 FENCE = re.compile(r"^```(.*)$")

@@ -198,13 +198,17 @@ TEST(CameraFiles, FspysJsonProjectsToOurDots) {
   }
 }
 
+// A control point, a share of width and height, on the image plane.
+Vec2 PlaneOfShare(const Vec2& share, const Eigen::Vector2i& size_px) {
+  const Vec2 from_middle = (share - Vec2(0.5, 0.5)).cwiseProduct(size_px.cast<double>());
+  return Vec2(from_middle.x(), -from_middle.y()) / (0.5 * size_px.maxCoeff());
+}
+
 // A project's own solution, as fSpy finds it from its control points: two vanishing points and the
 // principal point give f and the axes, or f is given and the second one is on the horizon; the
 // origin and a distance along the first axis give the place.
 FramedCamera SolvedByFspy(const json& project, const Eigen::Vector2i& size_px) {
-  const auto plane = [&](const json& share) {
-    return camera::FspyPointOf(camera::DotOfFspyShare(PointIn(share), size_px), size_px);
-  };
+  const auto plane = [&](const json& share) { return PlaneOfShare(PointIn(share), size_px); };
   const auto vanishing = [&](const json& point) -> Vec2 {
     const json& lines = point["lineSegments"];
     const auto line = [&](int i) -> Vec3 {
@@ -247,7 +251,7 @@ FramedCamera SolvedByFspy(const json& project, const Eigen::Vector2i& size_px) {
   const Vec2 handle =
       anchor + base["referenceDistanceHandleOffsets"][1].get<double>() * (to - anchor).normalized();
   const auto ray = [&](const Vec2& share) {
-    const Vec2 point = camera::FspyPointOf(camera::DotOfFspyShare(share, size_px), size_px);
+    const Vec2 point = PlaneOfShare(share, size_px);
     return Vec3(point.x() - principal.x(), point.y() - principal.y(), -f);
   };
   // depth · ray(origin) + distance · axis lies on ray(handle).
@@ -291,8 +295,9 @@ TEST(CameraFiles, AnFspyProjectIsSolvedToTheSameCamera) {
     const FramedCamera solved = SolvedByFspy(json::parse(project->settings), size_px);
     const auto stored = camera::CameraInFspy(project->settings);
     ASSERT_TRUE(stored.has_value()) << stored.error().detail;
-    EXPECT_EQ(stored->frame.size_px, size_px);
-    for (const FramedCamera& again : {solved, *stored}) {
+    ASSERT_TRUE(stored->has_value());
+    EXPECT_EQ((*stored)->frame.size_px, size_px);
+    for (const FramedCamera& again : {solved, **stored}) {
       EXPECT_LT((again.camera.position_m() - framed.camera.position_m()).norm(), apart_m);
       for (const Vec3& point : kPoints) {
         const Vec3 dot = camera::DotFromWorld(again.camera, again.frame) * point.homogeneous();

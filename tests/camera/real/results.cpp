@@ -146,8 +146,8 @@ std::vector<double> RelativeRotationErrors(const std::vector<Found>& found,
   return errors;
 }
 
-std::vector<double> RotationErrors(const std::vector<Found>& found, const std::vector<Known>& known,
-                                   int alike) {
+std::vector<Mat3> TrueRotations(const std::vector<Found>& found, const std::vector<Known>& known,
+                                int alike) {
   // So many times the azimuth, so that turns that are alike do not count.
   std::complex<double> sum = 0;
   for (std::size_t i = 0; i < found.size(); ++i) {
@@ -159,14 +159,22 @@ std::vector<double> RotationErrors(const std::vector<Found>& found, const std::v
   world_from_castle.col(0) = Vec3(std::cos(azimuth), std::sin(azimuth), 0);
   world_from_castle.col(2) = -Vec3::UnitZ();
   world_from_castle.col(1) = world_from_castle.col(2).cross(world_from_castle.col(0));
+  std::vector<Mat3> rotations;
+  for (const Known& photograph : known)
+    rotations.push_back(photograph.camera_from_world * world_from_castle);
+  return rotations;
+}
+
+std::vector<double> RotationErrors(const std::vector<Found>& found, const std::vector<Known>& known,
+                                   int alike) {
+  const std::vector<Mat3> truth = TrueRotations(found, known, alike);
   std::vector<double> errors;
   for (std::size_t i = 0; i < found.size(); ++i) {
-    const Mat3 truth = known[i].camera_from_world * world_from_castle;
     double least = 180;
     for (int k = 0; k < alike; ++k) {
       const Eigen::AngleAxisd turn(2 * kPi * k / alike, Vec3::UnitZ());
-      least = std::min(
-          least, Angle(found[i].camera_from_world * turn.toRotationMatrix() * truth.transpose()));
+      least = std::min(least, Angle(found[i].camera_from_world * turn.toRotationMatrix() *
+                                    truth[i].transpose()));
     }
     errors.push_back(least);
   }

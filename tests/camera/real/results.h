@@ -50,9 +50,12 @@ std::vector<double> FocalErrors(const std::vector<Found>&, const std::vector<Kno
 double RotationErrorUpToSigns(const Mat3& found, const Mat3& truth);
 // For every two photographs, degrees between the true and the found turn from one to the other.
 std::vector<double> RelativeRotationErrors(const std::vector<Found>&, const std::vector<Known>&);
-// For every photograph, degrees between the true and the found rotation from the castle's frame:
-// its Z is the true upright, its azimuth, which no survey tells, the mean of those found. So many
-// turns about Z are alike: two where it is known which facade is which, four where it is not.
+// For every photograph, the true rotation from the castle's frame: its Z is the true upright, its
+// azimuth, which no survey tells, the mean of those found. So many turns about Z are alike: two
+// where it is known which facade is which, four where it is not.
+std::vector<Mat3> TrueRotations(const std::vector<Found>& found, const std::vector<Known>& known,
+                                int alike);
+// For every photograph, degrees between that and the rotation found.
 std::vector<double> RotationErrors(const std::vector<Found>& found, const std::vector<Known>& known,
                                    int alike = 2);
 // For every photograph, degrees between the true upright direction and the one found.
