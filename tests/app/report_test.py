@@ -8,7 +8,8 @@ import shutil
 import harness
 
 MEMBERS = ["status", "model_hash", "elements", "outputs", "asserts", "cameras", "diagnostics"]
-ELEMENT = ["id", "name", "type", "level", "evidence", "source", "parent", "bbox", "length", "area", "volume", "hash"]
+ELEMENT = ["id", "name", "type", "level", "evidence", "source", "parent", "bbox", "length", "area", "volume",
+           "covariance", "hash"]
 
 
 class Report(harness.ProgramTest):
@@ -22,7 +23,7 @@ class Report(harness.ProgramTest):
         self.assertEqual(element, {
             "id": 0, "name": "edge", "type": "line", "level": "1", "evidence": None, "source": None, "parent": None,
             "bbox": {"min": [0, 0, 0], "max": [3, 4, 0]}, "length": 5, "area": None, "volume": None,
-            "hash": element["hash"]})
+            "covariance": None, "hash": element["hash"]})
         self.assertEqual(report["cameras"], [])
         self.assertEqual(report["diagnostics"], [])
         [output] = report["outputs"]
