@@ -4,6 +4,11 @@
 import sys
 
 import bpy
+import numpy
+
+# Blender 3.4 asks numpy for a name that numpy 1.24, beside it in Debian 12, has no more.
+if not hasattr(numpy, "bool"):
+    numpy.bool = bool
 
 model, picture, width, height = sys.argv[sys.argv.index("--") + 1:]
 bpy.ops.wm.read_factory_settings(use_empty=True)
