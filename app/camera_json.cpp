@@ -155,7 +155,7 @@ ordered_json CameraJson(const model::Element& element, const model::Photograph& 
   json["priors"] = PriorsJson(photograph);
   if (estimate.trials.trials > 0) json["trials"] = TrialsJson(estimate.trials);
   json["alternatives"] = ordered_json::array();
-  for (const camera::Alternative& other : estimate.alternatives) {
+  for (const camera::Estimate& other : estimate.alternatives) {
     ordered_json alternative = PoseJson(value_of(other.camera));
     alternative["chi2"] = other.chi2;
     json["alternatives"].push_back(std::move(alternative));
@@ -168,7 +168,9 @@ ordered_json CameraJson(const model::Element& element, const model::Photograph& 
     }
   }
   json["undetermined"] = estimate.undetermined;
-  json["warnings"] = estimate.warnings;
+  json["warnings"] = ordered_json::array();
+  if (estimate.disagreement) json["warnings"].push_back(estimate.disagreement->text);
+  for (const std::string& warning : estimate.warnings) json["warnings"].push_back(warning);
   if (!estimate.rectangles.empty()) json["rectangles"] = RectanglesJson(estimate);
   return json;
 }

@@ -38,7 +38,7 @@ geom::Result<Trial> TrialOf(const geom::Result<camera::SweepResult>& sweep) {
 geom::Result<Trial> Likeliest(const TracedCuboid& traced) {
   const auto estimate = camera::Calibrate(traced.photograph, traced.numbers);
   if (!estimate) return tl::unexpected(estimate.error());
-  if (!estimate->determined())
+  if (!estimate->complete())
     return tl::unexpected(geom::Error{geom::ErrorCode::kDegenerate, "not determined"});
   Trial trial{estimate->camera, true, {}, !estimate->warnings.empty()};
   for (int i = 0; i < kParameters; ++i)

@@ -20,14 +20,6 @@ namespace {
 using geom::Error;
 using geom::ErrorCode;
 
-Eigen::VectorXd StartsOf(std::span<const Unknown> unknowns) {
-  Eigen::VectorXd u(unknowns.size());
-  for (Eigen::Index i = 0; i < u.size(); ++i) {
-    u[i] = std::clamp(unknowns[i].start, unknowns[i].min, unknowns[i].max);
-  }
-  return u;
-}
-
 // The same numbers whatever the unknowns are.
 NumbersOfUnknowns Constant(const Numbers& numbers) {
   return [&numbers](const Eigen::VectorXd&) -> geom::Result<Numbers> { return numbers; };
@@ -101,15 +93,13 @@ std::vector<ProfilePoint> Profile(const Task& task, const Refined& best, const S
   return profile;
 }
 
-std::vector<Alternative> AlternativesOf(const Task& task, std::span<const Refined> others) {
-  std::vector<Alternative> alternatives;
+std::vector<Estimate> AlternativesOf(const Task& task, std::span<const Refined> others) {
+  std::vector<Estimate> alternatives;
   for (const Refined& other : others) {
     const auto at = LineariseAt(task, other);
     if (!at) continue;
-    const Estimate estimate =
-        EstimatesOf(task.photographs, task.unknowns, task.layout, other, *at).front();
-    alternatives.push_back({estimate.camera, estimate.chi2, estimate.covariance,
-                            estimate.deviations, estimate.facades});
+    alternatives.push_back(
+        EstimatesOf(task.photographs, task.unknowns, task.layout, other, *at).front());
   }
   return alternatives;
 }
@@ -136,6 +126,7 @@ geom::Result<std::vector<Estimate>> Calibrated(std::span<const Photograph> photo
   auto adjusted = Adjust(task, *numbers, u);
   if (!adjusted) return tl::unexpected(adjusted.error());
   std::vector<std::string> warnings;
+  std::optional<Disagreement> disagreement;
   DotNoise noise;
   bool noise_is_estimated = false;
   if (options.noise_is_estimated) {
@@ -162,31 +153,36 @@ geom::Result<std::vector<Estimate>> Calibrated(std::span<const Photograph> photo
   const int dof = first.dof;
   const double chi2 = at->residuals.squaredNorm();
   if (dof > 0 && ChiSquaredTail(chi2, dof) < 1e-6 && !noise_is_estimated) {
-    const Disagreement wrong = DisagreementAt(task, adjusted->best, *at, chi2, dof);
-    if (chi2 > 100.0 * dof && options.loss == Loss::kNone)
-      return tl::unexpected(
-          Error{ErrorCode::kOutOfRange, wrong.text, wrong.part, wrong.other_part});
-    warnings.push_back(wrong.text);
+    disagreement = DisagreementAt(task, adjusted->best, *at, chi2, dof);
+    if (chi2 > 100.0 * dof && options.loss == Loss::kNone) {
+      return tl::unexpected(Error{ErrorCode::kOutOfRange, disagreement->text, disagreement->part,
+                                  disagreement->other_part});
+    }
   }
   first.alternatives = AlternativesOf(task, adjusted->others);
   const std::vector<TrialSpread> trials =
       options.trials > 0 ? Trials(task, adjusted->best, options.trials, options.seed)
                          : std::vector<TrialSpread>(photographs.size());
-  for (std::size_t p = 0; p < estimates.size(); ++p) {
-    Estimate& estimate = estimates[p];
+  const auto complete = [&](Estimate& estimate) {
     estimate.noise_px = options.noise_px * task.refine.noise_scale;
     estimate.noise_is_estimated = noise_is_estimated;
     if (noise_is_estimated) {
       estimate.dof = std::max(1, static_cast<int>(std::lround(noise.dof)));
       estimate.quantile95 = StudentQuantile(0.975, noise.dof);
     }
+    estimate.disagreement = disagreement;
+    estimate.warnings.insert(estimate.warnings.begin(), warnings.begin(), warnings.end());
+  };
+  std::ranges::for_each(estimates, complete);
+  std::ranges::for_each(first.alternatives, complete);
+  for (std::size_t p = 0; p < estimates.size(); ++p) {
+    Estimate& estimate = estimates[p];
     estimate.trials = trials[p];
     for (int i = 0; i < kParameters; ++i) {
       if (!estimate.parameters[i].free()) continue;
       estimate.trials.mean[i] = estimate.trials.deviation[i] =
           std::numeric_limits<double>::quiet_NaN();
     }
-    estimate.warnings.insert(estimate.warnings.begin(), warnings.begin(), warnings.end());
   }
   if (options.profile) first.profile = Profile(task, adjusted->best, *options.profile);
   return estimates;

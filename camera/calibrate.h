@@ -39,12 +39,12 @@ struct CalibrateOptions {
 // fit: the traces' images are right, the numbers that are not determined mean nothing. Trials tell
 // NaN for these. The profile is of what is made least, χ² without a robust loss.
 //
-// Errors, `part` the index of the trace, counted through the photographs in order, `other` that of
-// the trace it is the same as, or that could as well be the one that disagrees; with several
-// photographs the sentence names the one that it is about. kDegenerate: a line traced twice, all
-// lines parallel, a rectangle traced crosswise or clockwise, axes that share a vanishing point, too
-// few traces to start from. kOutOfRange: a dimension that is not positive and finite, traces that
-// disagree, a profile's range. What `numbers_of` told.
+// Errors, `part` the index of the trace, counted through the photographs in order, or after all
+// traces of the unknown, `other` that of what it is the same as, or that could as well be the one
+// that disagrees; with several photographs the sentence names the one that it is about.
+// kDegenerate: a line traced twice, all lines parallel, a rectangle traced crosswise or clockwise,
+// axes that share a vanishing point, too few traces to start from. kOutOfRange: a dimension that is
+// not positive and finite, traces that disagree, a profile's range. What `numbers_of` told.
 geom::Result<std::vector<Estimate>> Calibrate(std::span<const Photograph>, std::span<const Unknown>,
                                               const NumbersOfUnknowns& numbers_of,
                                               const CalibrateOptions& = {});

@@ -5,6 +5,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <numeric>
 
 #include "camera/estimation.h"
 #include "camera/parameter_table.h"
@@ -21,28 +22,33 @@ struct Suspect {
   std::string name;
   int photograph = -1;  // of a trace or a prior
   int index = -1;       // of the trace or the prior's parameter there, or of the unknown
-  int part = -1;        // of a trace, through all photographs
+  int part = -1;        // as Disagreement's
   int rows = 1;
   double fall = 0;  // of χ² without it
+  int checked = 1;  // degrees of freedom that go with it
+
+  // What the rest then disagrees by, for each of its degrees of freedom. The one degree added, with
+  // a misfit as it should be, keeps a rest that nothing checks from looking better than it may.
+  double Rest(double chi2, int dof) const {
+    return (std::max(chi2 - fall, 0.0) + 1) / (std::max(dof - checked, 0) + 1);
+  }
 };
 
 // rᵀ R⁻¹ r, R the block of the redundancy matrix I − J (JᵀJ)⁻¹ Jᵀ: to first order, by how much χ²
 // falls when the rows are left out; a square of a studentised residual (Cook and Weisberg,
 // Residuals and Influence in Regression, 2.2). What nothing else checks has no part in it.
-double FallWithout(const Eigen::MatrixXd& redundancy, const Eigen::VectorXd& residuals) {
+void LeaveOut(const Eigen::MatrixXd& redundancy, const Eigen::VectorXd& residuals,
+              Suspect* suspect) {
   constexpr double kChecked = 1e-6;
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(redundancy);
   const Eigen::VectorXd along = solver.eigenvectors().transpose() * residuals;
-  double fall = 0;
+  suspect->fall = suspect->checked = 0;
   for (Eigen::Index i = 0; i < along.size(); ++i) {
     const double checked = solver.eigenvalues()[i];
-    if (checked > kChecked) fall += along[i] * along[i] / checked;
+    if (checked <= kChecked) continue;
+    suspect->fall += along[i] * along[i] / checked;
+    ++suspect->checked;
   }
-  return fall;
-}
-
-std::string NameOfUnknown(const Unknown& unknown) {
-  return unknown.name.empty() ? "a dimension" : "`" + unknown.name + "`";
 }
 
 std::string NameOfTrace(std::span<const Photograph> photographs, int photograph, int trace) {
@@ -70,7 +76,7 @@ std::vector<Suspect> SuspectsOf(const Task& task, const Refined& refined, const 
     const auto block = j.middleRows(first_row, suspect.rows);
     const Eigen::MatrixXd redundancy =
         Eigen::MatrixXd::Identity(suspect.rows, suspect.rows) - block * inverse * block.transpose();
-    suspect.fall = FallWithout(redundancy, at.residuals.segment(first_row, suspect.rows));
+    LeaveOut(redundancy, at.residuals.segment(first_row, suspect.rows), &suspect);
     suspects.push_back(std::move(suspect));
   };
   for (std::size_t i = 0; i < task.layout.traces.size(); ++i) {
@@ -81,12 +87,13 @@ std::vector<Suspect> SuspectsOf(const Task& task, const Refined& refined, const 
   int row = task.layout.trace_rows;
   for (int i = 0; i < task.layout.unknowns; ++i) {
     const Unknown& unknown = task.unknowns[i];
-    if (unknown.sigma > 0) add(row++, {Kind::kUnknown, NameOfUnknown(unknown), -1, i});
+    const int part = static_cast<int>(task.layout.traces.size()) + i;
+    if (unknown.sigma > 0) add(row++, {Kind::kUnknown, NameOfUnknown(unknown), -1, i, part});
     if (refined.at_bound.empty() || !refined.at_bound[i]) continue;
     // What χ² would fall by along the slope that the bound holds.
     const int column = task.layout.unknown_column() + i;
     const double slope = j.col(column).dot(at.residuals);
-    suspects.push_back({Kind::kBound, "the bound of " + NameOfUnknown(unknown), -1, i, -1, 1,
+    suspects.push_back({Kind::kBound, "the bound of " + NameOfUnknown(unknown), -1, i, part, 1,
                         slope * slope * inverse(column, column)});
   }
   for (int p = 0; p < task.layout.cameras; ++p) {
@@ -113,7 +120,8 @@ void Doubt(Trace& trace) {
       trace);
 }
 
-// χ² by which all else is better off without a suspect, adjusted again; to first order where it is
+// χ² by which all else is better off without a suspect, adjusted again, from where it is and from
+// the start, for a blunder may have taken the camera to another place; to first order where it is
 // not found.
 double FallOf(const Task& task, const Refined& refined, double chi2, const Suspect& suspect) {
   std::vector<Photograph> photographs(task.photographs.begin(), task.photographs.end());
@@ -133,9 +141,15 @@ double FallOf(const Task& task, const Refined& refined, double chi2, const Suspe
       photographs[suspect.photograph].priors[suspect.index].sigma *= kAsGoodAsNothing;
       break;
   }
-  const auto again =
-      RefineAgain({photographs, unknowns, task.numbers_of, task.layout, task.refine}, refined);
-  return again ? chi2 - again->chi2 : suspect.fall;
+  const Task without{photographs, unknowns, task.numbers_of, task.layout, task.refine};
+  double rest = chi2 - suspect.fall;
+  const auto nearby = RefineAgain(without, refined);
+  if (nearby) rest = nearby->chi2;
+  const Eigen::VectorXd u = StartsOf(unknowns);
+  const auto numbers = task.numbers_of(u);
+  const auto anew = numbers ? Adjust(without, *numbers, u) : tl::unexpected(numbers.error());
+  if (anew) rest = nearby ? std::min(rest, anew->best.chi2) : anew->best.chi2;
+  return chi2 - rest;
 }
 
 std::string SentenceOf(const Task& task, const Suspect& worst, const Suspect* rival, double chi2,
@@ -160,24 +174,24 @@ std::string SentenceOf(const Task& task, const Suspect& worst, const Suspect* ri
 Disagreement DisagreementAt(const Task& task, const Refined& refined, const Linearised& at,
                             double chi2, int dof) {
   constexpr std::size_t kTried = 8;
-  constexpr double kAlike = 0.99;
+  constexpr double kAlike = 0.01;
   std::vector<Suspect> suspects = SuspectsOf(task, refined, at);
+  const auto rest = [&](const Suspect& suspect) { return suspect.Rest(chi2, dof); };
   std::vector<std::size_t> order(suspects.size());
-  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
-  const auto for_each_row = [&](std::size_t i) { return suspects[i].fall / suspects[i].rows; };
-  std::ranges::stable_sort(order, std::ranges::greater{}, for_each_row);
+  std::iota(order.begin(), order.end(), 0);
+  std::ranges::stable_sort(order, {}, [&](std::size_t i) { return rest(suspects[i]); });
   order.resize(std::min(order.size(), kTried));
   for (const std::size_t i : order) suspects[i].fall = FallOf(task, refined, chi2, suspects[i]);
   std::ranges::sort(order);
-  double most = 0;
-  for (const std::size_t i : order) most = std::max(most, for_each_row(i));
+  double least = std::numeric_limits<double>::infinity();
+  for (const std::size_t i : order) least = std::min(least, rest(suspects[i]));
+  const double alike = least + kAlike * chi2 / dof;
   const Suspect *worst = nullptr, *rival = nullptr;
   for (const std::size_t i : order) {
-    if (for_each_row(i) < kAlike * most) continue;
+    if (rest(suspects[i]) > alike) continue;
     rival = worst;
     worst = &suspects[i];
   }
-  if (!worst) worst = &suspects[order.front()];
   Disagreement result;
   result.text = SentenceOf(task, *worst, rival, chi2, dof);
   result.part = worst->part;

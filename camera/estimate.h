@@ -3,6 +3,8 @@
 // data could not determine.
 #pragma once
 
+#include <algorithm>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -45,13 +47,13 @@ struct FacadeEstimate {
   bool determined = true;
 };
 
-// A second pose that explains the traces within their noise.
-struct Alternative {
-  Camera camera;
-  double chi2 = 0;
-  Eigen::MatrixXd covariance;  // as Estimate's, with its deviations
-  Eigen::MatrixXd deviations;
-  std::vector<FacadeEstimate> facades;
+// What is at fault where traces, dimensions and assumptions do not agree.
+struct Disagreement {
+  std::string text;  // what disagrees, χ², what is farthest off, and what could as well be
+  // Of what is at fault, and of what could as well be: the index of a trace through all photographs
+  // or, after all traces, of an unknown; −1: a prior of the camera, or nothing.
+  int part = -1;
+  int other_part = -1;
 };
 
 // Where a traced rectangle's plane is in the picture, whatever camera took it.
@@ -88,6 +90,7 @@ struct Estimate {
   // independent sources, of deviation 1, that all estimates of one adjustment share. D Dᵀ is the
   // covariance, and D of one with Dᵀ of another that of the two.
   Eigen::MatrixXd deviations;
+  int photographs = 1;  // that were adjusted together: χ² and degrees of freedom are of all
   double chi2 = 0;
   int dof = 0;
   double noise_px = 0;              // stated, or estimated from the residuals
@@ -96,20 +99,21 @@ struct Estimate {
   double quantile95 = 1.959963984540054;
   std::vector<UnknownEstimate> unknowns;
   std::vector<FacadeEstimate> facades;  // by the index that traces have
-  std::vector<Alternative> alternatives;
+  std::vector<Estimate> alternatives;   // other poses that explain the traces within their noise
   std::vector<TraceResidual> residuals;
   std::vector<std::string> undetermined;  // in words: what trades off, and what would determine it
   std::vector<std::string> warnings;      // near-degenerate vanishing points, tilt, pan
+  std::optional<Disagreement> disagreement;
   std::vector<ProfilePoint> profile;
   TrialSpread trials;
   std::vector<RectangleView> rectangles;
 
+  // Whether the data alone determine all parameters.
   bool determined() const {
-    for (const ParameterEstimate& p : parameters) {
-      if (p.free()) return false;
-    }
-    return true;
+    return std::ranges::all_of(parameters, &ParameterEstimate::determined);
   }
+  // Whether all parameters have a number, be it by a prior: then the camera may be used.
+  bool complete() const { return std::ranges::none_of(parameters, &ParameterEstimate::free); }
 };
 
 }  // namespace tranos::camera

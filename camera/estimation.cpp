@@ -53,9 +53,8 @@ std::vector<Quantity> QuantitiesOfAll(std::span<const Photograph> photographs,
     // A literal's error is near zero, so that its value says nothing of its size.
     const double value = std::abs(refined.state[layout.unknown_column() + i]);
     const double scale = unknowns[i].sigma > 0 ? unknowns[i].sigma : std::max(value, 1e-3);
-    quantities.push_back({Quantity::Kind::kUnknown, scale,
-                          unknowns[i].name.empty() ? "a dimension" : "`" + unknowns[i].name + "`",
-                          unknowns[i].sigma > 0});
+    quantities.push_back(
+        {Quantity::Kind::kUnknown, scale, NameOfUnknown(unknowns[i]), unknowns[i].sigma > 0});
   }
   quantities.resize(static_cast<std::size_t>(layout.columns));
   return quantities;
@@ -118,6 +117,15 @@ void WarnOfVanishingPoints(const Photograph& photograph, const Numbers& numbers,
         "nearly degenerate",
         "XYZ"[axis]));
   }
+}
+
+// What is open to one camera and the unknowns, whatever else is open to others.
+std::vector<std::string> OpenOf(int photograph, const Layout& layout,
+                                std::vector<Quantity> quantities, const Determined& determined) {
+  for (int i = 0; i < layout.unknown_column(); ++i) {
+    if (i / kParameters != photograph) quantities[i].kind = Quantity::Kind::kNuisance;
+  }
+  return Determine(determined.jacobian, layout.data_rows(), quantities).undetermined;
 }
 
 // A triangular root of the covariance of the unknowns, then all cameras, and then the facades, its
@@ -192,6 +200,11 @@ std::vector<FacadeEstimate> FacadesOf(std::span<const Photograph> photographs, c
 
 }  // namespace
 
+std::string NameOfUnknown(const Unknown& unknown) {
+  if (!unknown.name.empty()) return "`" + unknown.name + "`";
+  return unknown.words.empty() ? "a dimension" : "the dimension " + unknown.words;
+}
+
 Determined DeterminedOf(std::span<const Photograph> photographs, std::span<const Unknown> unknowns,
                         const Layout& layout, const Refined& refined, const Linearised& at) {
   Determined determined{{}, at.jacobian};
@@ -215,15 +228,16 @@ std::vector<Estimate> EstimatesOf(std::span<const Photograph> photographs,
                                   const Refined& refined, const Linearised& at) {
   const Determined determined = DeterminedOf(photographs, unknowns, layout, refined, at);
   const Determination& d = determined.determination;
+  const std::vector<Quantity> quantities = QuantitiesOfAll(photographs, unknowns, layout, refined);
   const std::vector<Shares> shares = SharesOf(layout, determined);
   const Eigen::MatrixXd root = RootOf(d.covariance, layout);
   const auto sigma = [&](int column) {
     return std::sqrt(std::max(0.0, d.covariance(column, column)));
   };
   Estimate common;
+  common.photographs = layout.cameras;
   common.chi2 = at.residuals.squaredNorm();
   common.dof = layout.rows() - d.rank;
-  common.undetermined = d.undetermined;
   common.facades = FacadesOf(photographs, layout, refined, d, root);
   for (int i = 0; i < layout.unknowns; ++i) {
     const int column = layout.unknown_column() + i;
@@ -237,6 +251,7 @@ std::vector<Estimate> EstimatesOf(std::span<const Photograph> photographs,
   for (int p = 0; p < layout.cameras; ++p) {
     Estimate estimate = common;
     estimate.camera = CameraAt(refined.state, p);
+    if (!d.undetermined.empty()) estimate.undetermined = OpenOf(p, layout, quantities, determined);
     for (int i = 0; i < kParameters; ++i) {
       const int column = kParameters * p + i;
       ParameterEstimate& parameter = estimate.parameters[i];

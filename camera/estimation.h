@@ -10,6 +10,9 @@
 
 namespace tranos::camera {
 
+// "`depth`", or of a dimension without a name "the dimension 14 m ± 0.14 m".
+std::string NameOfUnknown(const Unknown&);
+
 struct Determined {
   Determination determination;
   // Weighted as the robust loss has it, which is how the estimate hangs on each row.

@@ -47,6 +47,14 @@ geom::Result<Refined> RefineFrom(const Task& task, const Numbers& numbers,
 
 }  // namespace
 
+Eigen::VectorXd StartsOf(std::span<const Unknown> unknowns) {
+  Eigen::VectorXd u(unknowns.size());
+  for (Eigen::Index i = 0; i < u.size(); ++i) {
+    u[i] = std::clamp(unknowns[i].start, unknowns[i].min, unknowns[i].max);
+  }
+  return u;
+}
+
 geom::Result<Refined> RefineAgain(const Task& task, const Refined& near) {
   if (FitsAlone(task)) return RefineAlone(task, near.numbers, CameraAt(near.state, 0));
   return Refine(task.photographs, task.unknowns, task.layout, task.numbers_of, near.state,
@@ -220,6 +228,66 @@ std::optional<Adjusted> InValley(const Task& task, const Numbers& numbers, const
   return valley;
 }
 
+// The poses of these that may be within noise of the first, adjusted to the end, by their cost.
+// Rough ones may still come down a little.
+std::vector<Refined> Settle(const Task& task, const std::vector<Refined>& found) {
+  std::vector<Refined> refined;
+  for (const Refined& pose : found) {
+    const auto is_known = [&](const Refined& other) { return IsOne(pose, other); };
+    const bool is_other = pose.cost <= found.front().cost + 2 * kWithinNoise && SeesAll(task, pose);
+    if (!refined.empty() && (!is_other || std::ranges::any_of(refined, is_known))) continue;
+    geom::Result<Refined> again = RefineAgain(task, pose);
+    if (!again) continue;
+    Unwind(again->state, 1);
+    refined.push_back(std::move(*again));
+  }
+  std::ranges::stable_sort(refined, {}, &Refined::cost);
+  return refined;
+}
+
+// A photograph with those of its traces that no unknown moves.
+Photograph WithoutUnknowns(const Task& task, const Linearised& at) {
+  Photograph photograph = task.photographs[0];
+  photograph.traces.clear();
+  for (const TraceRows& rows : task.layout.traces) {
+    const auto by_unknown = at.jacobian.block(rows.first_row, task.layout.unknown_column(),
+                                              rows.rows, task.layout.unknowns);
+    if (by_unknown.isZero(0)) photograph.traces.push_back(task.photographs[0].traces[rows.trace]);
+  }
+  return photograph;
+}
+
+// What another look finds, from the solved unknowns and from traces that these do not move: where
+// their starts were far off, or one of two poses has others, only one may have been in reach.
+void LookAgain(const Task& task, std::vector<Refined>* refined) {
+  const Refined best = refined->front();
+  const auto at = LineariseAt(task, best);
+  if (!at) return;
+  const Eigen::VectorXd u = best.state.segment(task.layout.unknown_column(), task.layout.unknowns);
+  std::vector<Camera> starts =
+      Settled(task, best.numbers, Starts(task.photographs[0], best.numbers));
+  const Photograph without = WithoutUnknowns(task, *at);
+  if (without.traces.size() < task.photographs[0].traces.size()) {
+    Task settling = task;
+    settling.photographs = {&without, 1};
+    std::ranges::move(Settled(settling, best.numbers, Starts(without, best.numbers)),
+                      std::back_inserter(starts));
+  }
+  std::erase_if(starts, [&](const Camera& start) {
+    return std::ranges::any_of(*refined, [&](const Refined& known) {
+      return AreOnePose(start, CameraAt(known.state, 0));
+    });
+  });
+  Poses poses;
+  poses.Add(task, best.numbers, u, starts);
+  std::ranges::stable_sort(poses.seeing, {}, &Refined::cost);
+  std::vector<Refined> more = Settle(task, poses.seeing);
+  if (more.empty()) return;
+  if (!SeesAll(task, best)) refined->clear();
+  std::ranges::move(more, std::back_inserter(*refined));
+  std::ranges::stable_sort(*refined, {}, &Refined::cost);
+}
+
 geom::Result<Adjusted> AdjustOne(const Task& task, const Numbers& numbers,
                                  const Eigen::VectorXd& u) {
   const std::vector<Camera> starts = Starts(task.photographs[0], numbers);
@@ -239,20 +307,9 @@ geom::Result<Adjusted> AdjustOne(const Task& task, const Numbers& numbers,
   const Error failure = poses.failure;
   const std::vector<Refined> found = std::move(poses).Sorted();
   if (found.empty()) return tl::unexpected(failure);
-  // Rough ones may still come down so far.
-  const double most = found.front().cost + 2 * kWithinNoise;
-  std::vector<Refined> refined;
-  for (const Refined& pose : found) {
-    const auto is_known = [&](const Refined& other) { return IsOne(pose, other); };
-    const bool is_other = pose.cost <= most && SeesAll(task, pose);
-    if (!refined.empty() && (!is_other || std::ranges::any_of(refined, is_known))) continue;
-    geom::Result<Refined> again = RefineAgain(task, pose);
-    if (!again) continue;
-    Unwind(again->state, 1);
-    refined.push_back(std::move(*again));
-  }
+  std::vector<Refined> refined = Settle(task, found);
+  if (!refined.empty() && !task.unknowns.empty()) LookAgain(task, &refined);
   if (refined.empty()) return tl::unexpected(Error{ErrorCode::kDegenerate, "no camera fits"});
-  std::ranges::stable_sort(refined, {}, &Refined::cost);
   Adjusted adjusted{std::move(refined.front()), {}};
   for (std::size_t i = 1; i < refined.size(); ++i) {
     if (refined[i].cost > adjusted.best.cost + kWithinNoise) break;

@@ -19,6 +19,9 @@ struct Task {
   RefineOptions refine;
 };
 
+// Where the search for the unknowns starts: within their bounds.
+Eigen::VectorXd StartsOf(std::span<const Unknown>);
+
 // The state of least cost near one that is nearly right. Errors as Refine's.
 geom::Result<Refined> RefineAgain(const Task&, const Refined& near);
 

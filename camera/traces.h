@@ -88,6 +88,7 @@ struct Unknown {
   double sigma = 0;  // of its prior around `start`; 0: none
   double min = -std::numeric_limits<double>::infinity();
   double max = std::numeric_limits<double>::infinity();
+  std::string words = {};  // of one without a name: "14 m ± 0.14 m"
 };
 
 // What is assumed of the camera beforehand: a value with a deviation; sigma 0: nothing is.

@@ -161,13 +161,21 @@ Fired Machine::Calibrate(const Answers& answers, const model::State& state, Span
       }
     }
   } else {
+    const std::pair<const char*, bool> given[] = {{"robust", answers.Flag("robust")},
+                                                  {"trials", answers.Number("trials") > 0}};
+    for (const auto& [key, is_given] : given) {
+      if (!is_given) continue;
+      Fail(Code::kOutOfRange, span,
+           fmt::format("`{}=` has no part in `method={}`", key, method.name), "",
+           "`method=likelihood` takes it");
+    }
     LeaveUnknowns(method.name, span);
     const auto numbers = evaluation(start);
     found = numbers ? EstimatesBy(method, traced, *numbers)
                     : geom::Result<std::vector<camera::Estimate>>(tl::unexpected(numbers.error()));
   }
   if (!found && evaluation.failure()) throw *evaluation.failure();
-  if (!found) FailCalibration(found.error(), traced, span);
+  if (!found) FailCalibration(found.error(), evaluation, traced, span);
   CheckUnknowns((*found)[0]);
   return Calibrated({evaluation, traced, silent, solved, *std::move(found)}, state, span);
 }
@@ -214,22 +222,45 @@ std::optional<Span> Machine::FindTrace(const Traced& traced, int index) const {
   return std::nullopt;
 }
 
+// Where the trace or, after all traces, the unknown or dimension with this index was written.
+std::optional<Span> Machine::FindPart(const Evaluation& evaluation, const Traced& traced,
+                                      int part) const {
+  if (part < 0) return std::nullopt;
+  if (const auto trace = FindTrace(traced, part)) return trace;
+  const std::size_t unknown = static_cast<std::size_t>(part) - traced.trace_count();
+  return solvables_[evaluation.sources()[unknown]].span;
+}
+
 // The error with the traces at fault.
-void Machine::FailCalibration(const geom::Error& error, const Traced& traced, Span span) const {
+void Machine::FailCalibration(const geom::Error& error, const Evaluation& evaluation,
+                              const Traced& traced, Span span) const {
   Code code = Code::kNotCalibrated;
   if (error.code == geom::ErrorCode::kOutOfRange) code = Code::kTracesDisagree;
-  const auto trace = FindTrace(traced, error.part);
-  if (!trace) {
+  const auto part = FindPart(evaluation, traced, error.part);
+  if (!part) {
     Fail(code, span, error.detail, "",
          "`tranos explain " + std::string(InfoOf(code).code) + "` says more");
   }
   if (code == Code::kNotCalibrated) code = Code::kBadTrace;
   std::vector<Note> notes;
-  if (const auto other = FindTrace(traced, error.other)) {
-    notes.push_back({*other, "the other trace"});
+  if (const auto other = FindPart(evaluation, traced, error.other)) {
+    notes.push_back({*other, "the other one"});
   }
   notes.push_back({span, "calibrated here"});
-  Fail(code, *trace, error.detail, "this trace", "", std::move(notes));
+  const bool is_trace = FindTrace(traced, error.part).has_value();
+  Fail(code, *part, error.detail, is_trace ? "this trace" : "", "", std::move(notes));
+}
+
+void Machine::WarnOfDisagreement(const camera::Disagreement& disagreement,
+                                 const Evaluation& evaluation, const Traced& traced, Span span) {
+  const auto part = FindPart(evaluation, traced, disagreement.part);
+  std::vector<Note> notes;
+  if (const auto other = FindPart(evaluation, traced, disagreement.other_part)) {
+    notes.push_back({*other, "the other one"});
+  }
+  if (part) notes.push_back({span, "calibrated here"});
+  outcome_.diagnostics.Add(
+      {Code::kCameraWeak, part.value_or(span), disagreement.text, "", "", std::move(notes)});
 }
 
 namespace {
@@ -286,6 +317,7 @@ Fired Machine::Calibrated(Solution solution, const model::State& before, Span sp
   CheckNumbers(evaluation, trial, run.state(), traced);
   Fired fired;
   fired.edit = Adopt(run, before, span);
+  if (found[0].disagreement) WarnOfDisagreement(*found[0].disagreement, evaluation, traced, span);
   AdoptFacades(found[0].facades, traced, run.state(), &fired.edit);
   for (std::size_t p = 0; p < found.size(); ++p) {
     const ElementPtr element = run.state().model.Current(traced.photograph_ids[p]);
@@ -439,11 +471,17 @@ void Machine::Decide(const Value& condition, Span span) {
   trail_.push_back({span, condition.boolean()});
 }
 
+std::string Machine::WordsOf(const Solvable& literal) const {
+  const SourceList own{{literal.unknown.sigma, ""}};
+  const Value stated = Value::Uncertain({literal.stated, {{{0, 1.0}}}}, literal.dimension);
+  return Format(stated, program_.measures[0], -1, &own);
+}
+
 // A number with the error that this run tries for the literal it was just made with.
-Value Machine::WithError(Value number) {
+Value Machine::WithError(Value number, Span span) {
   if (!unsolved_) return number;
   const std::size_t met = solvables_.size();
-  solvables_.push_back({{"", 0, sources_.back().sigma}, number.dimension()});
+  solvables_.push_back({{"", 0, sources_.back().sigma}, number.dimension(), span, number.number()});
   if (!trial_) return number;
   const auto error = trial_->values.find(met);
   if (error == trial_->values.end()) return number;
@@ -472,7 +510,7 @@ Value Machine::UnknownValue(const UnknownInfo& info, const Value& start, const V
                              : "`calibrate` would solve for it"});
     return start;
   }
-  Solvable solvable{{info.name, start.number(), Sigma(start, sources_)}, start.dimension()};
+  Solvable solvable{{info.name, start.number(), Sigma(start, sources_)}, start.dimension(), span};
   if (info.range != UnknownInfo::kNoRange && r[info.range].kind() == Value::Kind::kRange) {
     Value from = Value::Number(r[info.range].range().from, r[info.range].dimension());
     Value to = Value::Number(r[info.range].range().to, r[info.range].dimension());

@@ -83,7 +83,7 @@ std::string ParameterLine(const camera::Estimate& estimate, Parameter parameter,
       fmt::format("{:>3} {:12.5f}{}", row.symbol, estimate.camera[parameter] / row.per_unit, unit);
   if (stated || estimate.covariance.size() == 0) return line;
   line += fmt::format(" ± {:.5f}{}  {}", known.sigma / row.per_unit, unit, ShareText(known.shares));
-  if (known.from_prior) line += ", held by a prior alone";
+  if (known.from_prior) line += ", not determined without priors";
   return line;
 }
 
@@ -159,6 +159,19 @@ std::vector<std::string> PhotographMembers() {
   return names;
 }
 
+std::string UnknownText(const Photograph& photograph, const camera::Estimate& estimate,
+                        std::size_t unknown) {
+  const auto& [name, value, sigma, determined, at_bound] = estimate.unknowns[unknown];
+  const model::Dimension dimension = unknown < photograph.unknown_dimensions.size()
+                                         ? photograph.unknown_dimensions[unknown]
+                                         : model::kPlain;
+  const double unit = dimension == model::kAngle ? kDegree : 1;
+  const char* const symbol = dimension == model::kAngle    ? "°"
+                             : dimension == model::kLength ? " m"
+                                                           : "";
+  return fmt::format("{:.6g}{} ± {:.2g}{}", value / unit, symbol, sigma / unit, symbol);
+}
+
 std::vector<std::string> CameraReport(const model::Element& element, const Photograph& photograph) {
   const camera::Estimate& estimate = *photograph.estimate;
   const bool stated = !photograph.attached || !photograph.camera_file.empty();
@@ -174,28 +187,24 @@ std::vector<std::string> CameraReport(const model::Element& element, const Photo
     lines.push_back(ParameterLine(estimate, static_cast<Parameter>(p), stated));
   }
   AddPriors(photograph, &lines);
-  if (estimate.determined()) {
+  if (estimate.complete()) {
     AddCalibrationMatrix(estimate.camera, photograph.frame, &lines);
   }
   if (stated) return lines;
   if (estimate.covariance.size() > 0) {
-    lines.push_back(fmt::format("χ² {:.3f}, {} degrees of freedom, noise {:.3f} px{}",
-                                estimate.chi2, estimate.dof, estimate.noise_px,
+    const std::string of = estimate.photographs > 1
+                               ? fmt::format(" of {} photographs together", estimate.photographs)
+                               : "";
+    lines.push_back(fmt::format("χ² {:.3f}, {} degrees of freedom{}, noise {:.3f} px{}",
+                                estimate.chi2, estimate.dof, of, estimate.noise_px,
                                 estimate.noise_is_estimated ? " (estimated; Student's t)" : ""));
   }
   if (!estimate.residuals.empty()) lines.push_back(ResidualLine(estimate));
   for (std::size_t i = 0; i < estimate.unknowns.size(); ++i) {
     const camera::UnknownEstimate& unknown = estimate.unknowns[i];
     if (unknown.name.empty()) continue;
-    const model::Dimension dimension =
-        i < photograph.unknown_dimensions.size() ? photograph.unknown_dimensions[i] : model::kPlain;
-    const double unit = dimension == model::kAngle ? kDegree : 1;
-    const char* const symbol = dimension == model::kAngle    ? "°"
-                               : dimension == model::kLength ? " m"
-                                                             : "";
-    lines.push_back(fmt::format("{} = {:.6g}{} ± {:.2g}{}{}", unknown.name, unknown.value / unit,
-                                symbol, unknown.sigma / unit, symbol,
-                                unknown.at_bound ? ", at its bound" : ""));
+    lines.push_back(unknown.name + " = " + UnknownText(photograph, estimate, i) +
+                    (unknown.at_bound ? ", at its bound" : ""));
   }
   if (estimate.trials.trials > 0) {
     std::string line = fmt::format("{} trials:", estimate.trials.trials);
@@ -207,8 +216,9 @@ std::vector<std::string> CameraReport(const model::Element& element, const Photo
     lines.push_back(std::move(line));
   }
   for (const std::string& open : estimate.undetermined) lines.push_back("open: " + open);
+  if (estimate.disagreement) lines.push_back("warning: " + estimate.disagreement->text);
   for (const std::string& warning : estimate.warnings) lines.push_back("warning: " + warning);
-  for (const camera::Alternative& other : estimate.alternatives) {
+  for (const camera::Estimate& other : estimate.alternatives) {
     lines.push_back(fmt::format(
         "a second pose fits as well (χ² {:.3f}): X0 {:.3f} m, Y0 {:.3f} m, Z0 {:.3f} m, φ {:.3f}°",
         other.chi2, other.camera[camera::kX0], other.camera[camera::kY0], other.camera[camera::kZ0],

@@ -16,6 +16,10 @@ namespace tranos::interp {
 std::vector<std::string> CameraReport(const model::Element& element,
                                       const model::Photograph& photograph);
 
+// The value of an unknown with its deviation, in its unit: "2.4 m ± 0.012 m".
+std::string UnknownText(const model::Photograph& photograph, const camera::Estimate& estimate,
+                        std::size_t unknown);
+
 // A member of a photograph or camera: width, height, file, and of one with a camera its parameters
 // with their deviations. Nothing if there is no such member. Throws OpFailure (kNotDetermined) for
 // what the data left open.

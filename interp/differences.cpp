@@ -83,8 +83,8 @@ Value Differenced(const Value& base, std::span<const Side> sides) {
     model::Record record{base.record().type, {}};
     for (const auto& [name, member] : base.record().members) {
       record.members.emplace_back(
-          name, ItemDifferenced(member, sides, [&](const Value& side) {
-            return side.kind() == Value::Kind::kRecord ? side.record().Find(name) : nullptr;
+          name, ItemDifferenced(member, sides, [&, of = name](const Value& side) {
+            return side.kind() == Value::Kind::kRecord ? side.record().Find(of) : nullptr;
           }));
     }
     return Value::OfRecord(std::move(record));

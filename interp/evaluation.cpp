@@ -121,6 +121,7 @@ void Machine::Evaluation::FindUnknowns() {
     column_[i] = static_cast<Eigen::Index>(sources_.size());
     sources_.push_back(i);
     unknowns_.push_back(unknown);
+    if (unknown.name.empty()) unknowns_.back().words = main_.WordsOf(main_.solvables_[i]);
   }
 }
 

@@ -94,12 +94,17 @@ class Machine {
   struct Solvable {
     camera::Unknown unknown;
     model::Dimension dimension;
+    Span span;
+    double stated = 0;              // of a literal
     bool taken_by_unknown = false;  // a literal that says what is known of an unknown
   };
   Fired Calibrate(const Answers& answers, const model::State& state, Span span);
   std::optional<Span> FindTrace(const Traced& traced, int index) const;
-  [[noreturn]] void FailCalibration(const geom::Error& error, const Traced& traced,
-                                    Span span) const;
+  std::optional<Span> FindPart(const Evaluation& evaluation, const Traced& traced, int part) const;
+  [[noreturn]] void FailCalibration(const geom::Error& error, const Evaluation& evaluation,
+                                    const Traced& traced, Span span) const;
+  void WarnOfDisagreement(const camera::Disagreement& disagreement, const Evaluation& evaluation,
+                          const Traced& traced, Span span);
   [[noreturn]] static void EndTrial();
   Fired Calibrated(Solution solution, const model::State& before, Span span);
   void Warn(const camera::Estimate& estimate, const model::Element& photograph,
@@ -112,7 +117,8 @@ class Machine {
                     const Traced& traced) const;
   model::Value UnknownValue(const UnknownInfo& info, const model::Value& start,
                             const model::Value* registers, Span span);
-  model::Value WithError(model::Value number);
+  model::Value WithError(model::Value number, Span span);
+  std::string WordsOf(const Solvable& literal) const;  // "14 m ± 0.14 m"
   bool DependsOnUnknown(const model::Value& value) const;
   bool TakesUnknownText(const Instruction& i, const CodeUnit& unit,
                         const model::Value* registers) const;
@@ -121,8 +127,8 @@ class Machine {
   void Print(std::string_view line);
   void PrintHeld();
 
-  std::optional<model::SourceId> SourceOfDot(model::ElementId photograph,
-                                             const geom::Vec2& dot_px, double noise_px);
+  std::optional<model::SourceId> SourceOfDot(model::ElementId photograph, const geom::Vec2& dot_px,
+                                             double noise_px);
   void EvaluateSolids(const model::Model& last) const;
   CallContext ContextOf(const Instruction& i, Span span);
   StageLinks LinksFor(bool is_script);

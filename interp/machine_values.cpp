@@ -146,7 +146,7 @@ void Machine::ComputeValue(const Instruction& i, const CodeUnit& unit, Value* r,
     case Op::kPlusMinus:
       budget_.ChargeSteps(DeviationSteps(b()), span);
       r[i.a] = ForEachCoordinate(b(), [&](const Value& number) {
-        return WithError(PlusMinus(number, c(), i.flags & 1, {&measure, &sources_}));
+        return WithError(PlusMinus(number, c(), i.flags & 1, {&measure, &sources_}), span);
       });
       break;
     case Op::kMakeList: {

@@ -286,9 +286,9 @@ ElementPtr Stage::Drawn(const model::Element& placed) const {
   for (const auto& [source, term] : active_.point_terms[0]) {
     const double step = model::kMovedBy * (*links_.sources)[source].sigma;
     if (!(step > 0)) continue;
-    const auto beside = [&](double by) {
+    const auto beside = [&, slope = term](double by) {
       model::Instance aside = instance;
-      aside.world_from_prototype.pretranslate(by * term);
+      aside.world_from_prototype.pretranslate(by * slope);
       return std::make_shared<const model::Instance>(std::move(aside));
     };
     moved.push_back({source, step, beside(step), beside(-step)});

@@ -25,6 +25,12 @@ struct Traced {
   std::vector<camera::NumberIndex> given_planes;
   double noise_px = 0.5;  // of the first trace
   bool noise_is_estimated = false;
+
+  std::size_t trace_count() const {
+    std::size_t count = 0;
+    for (const std::vector<model::ElementId>& ids : trace_ids) count += ids.size();
+    return count;
+  }
 };
 // Of the photograph with this id, or of all attached ones, but those whose camera was read and on
 // which nothing is traced.

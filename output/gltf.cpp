@@ -291,7 +291,7 @@ int GlbBuilder::AddInstance(const Element& element, const model::Instance& insta
 // from the model to dots.
 int GlbBuilder::AddCamera(const Element& element, const model::Photograph& photograph,
                           const Vec3& origin) {
-  if (!photograph.estimate || !photograph.estimate->determined()) return -1;
+  if (!photograph.estimate || !photograph.estimate->complete()) return -1;
   using tinygltf::Value;
   const camera::Camera& camera = photograph.estimate->camera;
   const Vec2 size_mm = photograph.frame.size_mm;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "interp/command.h"
 #include "interp/functions.h"
 #include "session/correspondence.h"
 #include "session/element_match.h"
@@ -78,6 +79,21 @@ Answers Numbered(const Answers& answers) {
     const auto before = std::count_if(
         answers.begin(), answers.begin() + static_cast<std::ptrdiff_t>(out.size()), same);
     out.emplace_back(count > 1 ? name + " " + std::to_string(before + 1) : name, value);
+  }
+  return out;
+}
+
+// The data points of a trace are dots of its photograph: x and y in pixels.
+Answers AsKeyedIn(const Firing& firing) {
+  const interp::Command* row = interp::FindCommand(firing.command);
+  Answers out = firing.answers;
+  if (!row || !row->dots) return out;
+  for (auto& [name, value] : out) {
+    if (name != "point" || !IsPoint(value)) continue;
+    const geom::Vec3 dot = PointOf(value);
+    name = "dot";
+    value =
+        Value::List({Value::Number(dot.x(), model::kPixel), Value::Number(dot.y(), model::kPixel)});
   }
   return out;
 }
@@ -228,7 +244,7 @@ class Differ {
   static void Compare(const Firing& x, const Firing& y, const std::string& prefix,
                       std::vector<ParameterChange>* out) {
     if (x.command != y.command) return;
-    CompareAnswers(Numbered(x.answers), Numbered(y.answers), prefix, out);
+    CompareAnswers(Numbered(AsKeyedIn(x)), Numbered(AsKeyedIn(y)), prefix, out);
   }
   static void CompareAnswers(const Answers& x, const Answers& y, const std::string& prefix,
                              std::vector<ParameterChange>* out) {

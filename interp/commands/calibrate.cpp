@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "interp/camera_report.h"
 #include "interp/commands/drawing.h"
 #include "interp/commands/families.h"
 #include "interp/commands/firing.h"
@@ -120,6 +121,26 @@ tl::expected<Score, CommandError> ScoreOf(const State& state, const Answers& ans
   return [](const camera::Camera& camera) { return camera[camera::kY0] < 0 ? 0.0 : 1.0; };
 }
 
+// What the script built with unknowns stays as it is, and another pose would have them otherwise.
+std::vector<CommandError> OfUnknownsThatStay(const model::Photograph& photograph,
+                                             const camera::Estimate& after) {
+  constexpr double kNoticeable = 0.1;  // of a deviation
+  std::vector<CommandError> warnings;
+  for (std::size_t i = 0; i < after.unknowns.size(); ++i) {
+    const camera::UnknownEstimate &was = photograph.estimate->unknowns[i],
+                                  &would_be = after.unknowns[i];
+    const double moved = would_be.value - was.value;
+    if (was.name.empty() || std::abs(moved) <= kNoticeable * would_be.sigma) continue;
+    warnings.push_back({.code = Code::kCameraWeak,
+                        .message = fmt::format(
+                            "`{}` stays {}, as it was solved for the other pose; for this one it "
+                            "is {}",
+                            was.name, UnknownText(photograph, *photograph.estimate, i),
+                            UnknownText(photograph, after, i))});
+  }
+  return warnings;
+}
+
 // Of the poses that explain the traces, the one that is asked for; without a word on which, the one
 // before the plane y = 0.
 CommandResult RecoverCamera(const State& state, const Answers& answers) {
@@ -138,6 +159,7 @@ CommandResult RecoverCamera(const State& state, const Answers& answers) {
     best = other;
   }
   Fired fired;
+  const auto index = best - estimate.alternatives.begin();
   if (best == estimate.alternatives.end()) {
     if (!answers.Has("near") && least > 0) {
       return Fail({.code = Code::kNotDetermined,
@@ -145,26 +167,23 @@ CommandResult RecoverCamera(const State& state, const Answers& answers) {
     }
     return fired;
   }
-  std::swap(estimate.camera, best->camera);
-  std::swap(estimate.chi2, best->chi2);
-  std::swap(estimate.covariance, best->covariance);
-  std::swap(estimate.deviations, best->deviations);
-  for (int i = 0; i < camera::kParameters && estimate.covariance.size() > 0; ++i) {
-    estimate.parameters[i].sigma = std::sqrt(std::max(estimate.covariance(i, i), 0.0));
-  }
-  std::swap(estimate.facades, best->facades);
+  camera::Estimate chosen = std::move(*best);
+  fired.warnings = OfUnknownsThatStay(changed, chosen);
+  chosen.alternatives = std::move(estimate.alternatives);
+  estimate.alternatives.clear();
+  chosen.alternatives[static_cast<std::size_t>(index)] = std::move(estimate);
   state.model.ForEach([&](const model::ElementPtr& element) {
     const auto* facade = std::get_if<model::FacadePtr>(&element->geometry);
     if (!facade || (*facade)->solved < 0) return;
     const auto& [name, plane, solved] = **facade;
-    const auto index = static_cast<std::size_t>(solved);
-    if (index >= estimate.facades.size()) return;
-    const camera::FacadeEstimate& now = estimate.facades[index];
+    const auto place = static_cast<std::size_t>(solved);
+    if (place >= chosen.facades.size()) return;
+    const camera::FacadeEstimate& now = chosen.facades[place];
     fired.edit.replaced.push_back(
         model::WithMoved(*model::WithGeometry(*element, FacadeGeometry(name, now.plane, solved)),
                          MovedFacade(name, now, solved)));
   });
-  changed.estimate = std::make_shared<const camera::Estimate>(std::move(estimate));
+  changed.estimate = std::make_shared<const camera::Estimate>(std::move(chosen));
   fired.edit.replaced.push_back(WithPhotograph(**found, std::move(changed)));
   return fired;
 }

@@ -262,7 +262,7 @@ CommandResult SetCamera(const State& state, const Answers& answers) {
   const auto found = PhotographMeant(state, answers);
   if (!found) return Fail(found.error());
   const model::Photograph& photograph = PhotographOf(**found);
-  if (photograph.estimate && !photograph.estimate->determined()) {
+  if (photograph.estimate && !photograph.estimate->complete()) {
     return Fail(
         {.code = Code::kNotDetermined,
          .message = fmt::format("the camera of {} is not determined", NameForMessage(**found)),
@@ -308,7 +308,7 @@ CommandResult StepCamera(const State& state, const Answers& answers) {
   const auto found = PhotographMeant(state, answers);
   if (!found) return Fail(found.error());
   model::Photograph changed = PhotographOf(**found);
-  if (!changed.estimate || !changed.estimate->determined()) return Fail(NoCameraYet(**found));
+  if (!changed.estimate || !changed.estimate->complete()) return Fail(NoCameraYet(**found));
   auto estimate = std::make_shared<camera::Estimate>();
   const camera::Camera before = changed.estimate->camera;
   estimate->camera = before;

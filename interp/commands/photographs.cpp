@@ -89,17 +89,38 @@ tl::expected<camera::PhotoPtr, CommandError> PixelsOf(const model::Element& phot
                .help = "photographs are PNG, JPEG or TIFF"});
 }
 
+namespace {
+
+// In pixels, how far outside a dot is to either side.
+geom::Vec2 Beyond(const camera::Frame& frame, const geom::Vec2& dot_px) {
+  return (-dot_px).cwiseMax(dot_px - frame.size_px.cast<double>()).cwiseMax(0);
+}
+
+std::string SizeOf(const camera::Frame& frame) {
+  return fmt::format("the photograph is {} by {} pixels", frame.size_px.x(), frame.size_px.y());
+}
+
+}  // namespace
+
 std::optional<CommandError> OutsidePhotograph(const camera::Frame& frame, const geom::Vec2& dot_px,
                                               Code code) {
   constexpr double kBeyondBorder = 0.25;
-  const geom::Vec2 size_px = frame.size_px.cast<double>();
-  const geom::Vec2 beyond = (-dot_px).cwiseMax(dot_px - size_px).cwiseMax(0);
-  if ((beyond.array() <= kBeyondBorder * size_px.array()).all()) return std::nullopt;
+  const geom::Vec2 most = kBeyondBorder * frame.size_px.cast<double>();
+  if ((Beyond(frame, dot_px).array() <= most.array()).all()) return std::nullopt;
   return CommandError{
       .code = code,
       .message = fmt::format("the dot {:g},{:g} is outside the photograph", dot_px.x(), dot_px.y()),
-      .label =
-          fmt::format("the photograph is {} by {} pixels", frame.size_px.x(), frame.size_px.y())};
+      .label = SizeOf(frame)};
+}
+
+std::optional<CommandError> JustOutsidePhotograph(const camera::Frame& frame,
+                                                  const geom::Vec2& dot_px) {
+  if (Beyond(frame, dot_px).isZero()) return std::nullopt;
+  return CommandError{.code = Code::kDotOutside,
+                      .message = fmt::format("the dot {:g},{:g} is outside the photograph, where "
+                                             "nothing of it is seen",
+                                             dot_px.x(), dot_px.y()),
+                      .label = SizeOf(frame)};
 }
 
 CommandError NoCameraYet(const model::Element& photograph) {

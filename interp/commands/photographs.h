@@ -25,6 +25,9 @@ CommandError NoCameraYet(const model::Element& photograph);
 // further than an edge that leaves the picture is followed.
 std::optional<CommandError> OutsidePhotograph(const camera::Frame& frame, const geom::Vec2& dot_px,
                                               Code code);
+// The warning of a dot outside the photograph by less than that.
+std::optional<CommandError> JustOutsidePhotograph(const camera::Frame& frame,
+                                                  const geom::Vec2& dot_px);
 // What is seen on a photograph: upright, 8 bits a channel, the same object however often it is
 // asked for in a run. Errors: kNoPhotograph (a stated camera, a damaged file), kCannotRead (a
 // replay, which has no pixels).

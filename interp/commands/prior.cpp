@@ -99,6 +99,17 @@ std::optional<CommandError> SetPrior(std::string_view key, const Value& value,
                                       : key == "skew" ? camera::kSkew
                                                       : camera::kFocal;
   const double unit = parameter == camera::kFocal ? 1e3 : 1;
+  const double number = value.number();
+  const bool is_possible = parameter == camera::kSkew ? number > kDegree && number < kPi - kDegree
+                                                      : number > 0 && std::isfinite(number);
+  if (!is_possible) {
+    return CommandError{
+        .code = Code::kOutOfRange,
+        .message = fmt::format("no camera has such a {}", key == "focal" ? "focal length" : key),
+        .label = parameter == camera::kSkew ? "the angle between a dot's axes, near 90 degrees"
+                                            : "expected a number above zero",
+        .where = AtKey(key)};
+  }
   photograph->priors[parameter] = {value.number() * unit, sigma * unit};
   return std::nullopt;
 }

@@ -25,14 +25,16 @@ using Kind = Trace::Kind;
 
 Where AtDot(std::size_t index) { return {Where::kPoint, static_cast<int>(index), {}}; }
 
-std::optional<CommandError> CheckDots(const Answers& answers, const camera::Frame& frame) {
+// `group` dots belong together, and are apart; those of two edges may meet in a corner.
+std::optional<CommandError> CheckDots(const Answers& answers, const camera::Frame& frame,
+                                      std::size_t group) {
   for (std::size_t i = 0; i < answers.points.size(); ++i) {
     const Vec2 dot = answers.points[i].head<2>();
     if (auto error = OutsidePhotograph(frame, dot, Code::kBadTrace)) {
       error->where = AtDot(i);
       return error;
     }
-    for (std::size_t j = 0; j < i; ++j) {
+    for (std::size_t j = i - i % group; j < i; ++j) {
       if ((answers.points[j].head<2>() - dot).norm() > 1e-6) continue;
       return CommandError{.code = Code::kBadTrace,
                           .message = "two dots of the trace are in one place",
@@ -42,10 +44,23 @@ std::optional<CommandError> CheckDots(const Answers& answers, const camera::Fram
   return std::nullopt;
 }
 
+// Of the first dot outside the photograph.
+std::vector<CommandError> WarningsOfDots(const Answers& answers, const camera::Frame& frame) {
+  for (std::size_t i = 0; i < answers.points.size(); ++i) {
+    auto warning = JustOutsidePhotograph(frame, answers.points[i].head<2>());
+    if (!warning) continue;
+    warning->where = AtDot(i);
+    return {*std::move(warning)};
+  }
+  return {};
+}
+
 CommandResult MakeTrace(const State& state, const Answers& answers, Trace trace, std::size_t dots) {
   const auto photograph = PhotographMeant(state, answers.Has("photo") ? answers : Answers{});
   if (!photograph) return Fail(photograph.error());
-  if (auto error = CheckDots(answers, PhotographOf(**photograph).frame)) return Fail(*error);
+  const camera::Frame& frame = PhotographOf(**photograph).frame;
+  const std::size_t group = trace.kind == Kind::kRatio ? 2 : answers.points.size();
+  if (auto error = CheckDots(answers, frame, group)) return Fail(*error);
   if (dots > 0 && answers.points.size() != dots) {
     return Fail({.code = Code::kBadTrace,
                  .message = fmt::format("this trace takes {} dots, and has {}", dots,
@@ -63,7 +78,9 @@ CommandResult MakeTrace(const State& state, const Answers& answers, Trace trace,
                                         Printable(trace.facade)),
                  .where = {Where::kKey, 0, "facade"}});
   }
-  return Make(state, std::make_shared<const Trace>(std::move(trace)));
+  CommandResult made = Make(state, std::make_shared<const Trace>(std::move(trace)));
+  made->warnings = WarningsOfDots(answers, frame);
+  return made;
 }
 
 // How many pixels a line was fitted to.

@@ -79,7 +79,8 @@ TEST(CalibrateErrors, BlamesTheBoundOrTheDeviationThatIsOff) {
   ASSERT_FALSE(stated.has_value());
   EXPECT_NE(stated.error().detail.find("`height` is farthest off"), std::string::npos)
       << stated.error().detail;
-  EXPECT_EQ(stated.error().part, -1);
+  // Fifteen traces, and then the unknown.
+  EXPECT_EQ(stated.error().part, 15);
   EXPECT_TRUE(TownhouseOfHeight({"height", 6, 0}).has_value());
 }
 
@@ -139,8 +140,10 @@ TEST(CalibrateErrors, TellsOfDimensionsThatDisagree) {
   scene.list.values[top.at + 2] += 0.3;
   const auto estimate = Calibrate(scene.photograph, scene.list.numbers());
   ASSERT_TRUE(estimate.has_value());
-  EXPECT_TRUE(Mentions(estimate->warnings, "disagree")) << estimate->chi2;
-  EXPECT_TRUE(Mentions(estimate->warnings, "trace 9 is farthest off"));
+  ASSERT_TRUE(estimate->disagreement.has_value()) << estimate->chi2;
+  EXPECT_TRUE(Mentions({estimate->disagreement->text}, "disagree"));
+  EXPECT_TRUE(Mentions({estimate->disagreement->text}, "trace 9 is farthest off"));
+  EXPECT_EQ(estimate->disagreement->part, 8);
   scene.list.values[top.at + 2] += 2;
   const geom::Error error = ErrorOf(scene);
   EXPECT_EQ(error.part, 8) << error.detail;
@@ -172,6 +175,35 @@ TEST(CalibrateErrors, NamesTheTraceWithoutWhichAllAgree) {
   }
 }
 
+// Seven edges that only just determine the camera, and rectangles with many residuals each, of
+// which the one that is wrong draws the camera after it: each dot of it amiss, or its sides.
+TEST(CalibrateErrors, NamesARectangleThoughItHasMoreResidualsThanAnEdge) {
+  const scenes::Wall front{Vec3(0, 0, 0), 0, 0};
+  const auto scene_of = [&](double a, double b) {
+    Scene scene = BoxWithAWrongEdge(6);
+    scene.Rectangle(front, 1.5, 1, 2, 3);
+    scene.Rectangle(front, 6, 1, 2, 3);
+    const auto& wrong = std::get<RectangleTrace>(scene.photograph.traces[8]);
+    scene.list.values[wrong.a] = a;
+    scene.list.values[wrong.b] = b;
+    return scene;
+  };
+  for (const auto& [a, b] : {std::pair(2.6, 3.0), {3.0, 2.0}, {2.0, 2.2}}) {
+    const geom::Error error = ErrorOf(scene_of(a, b));
+    EXPECT_EQ(error.part, 8) << a << " m × " << b << " m: " << error.detail;
+    EXPECT_EQ(error.detail.find("the rest agrees as well"), std::string::npos) << error.detail;
+  }
+  for (int dot = 0; dot < 4; ++dot) {
+    for (const Vec2& amiss : {Vec2(30, 0), Vec2(0, -30), Vec2(-25, 25)}) {
+      Scene scene = scene_of(2, 3);
+      std::get<RectangleTrace>(scene.photograph.traces[8]).dots_px[dot] += amiss;
+      const auto estimate = Calibrate(scene.photograph, scene.list.numbers());
+      const int part = estimate ? estimate->disagreement->part : estimate.error().part;
+      EXPECT_EQ(part, 8) << "dot " << dot << " by " << amiss.transpose();
+    }
+  }
+}
+
 TEST(CalibrateErrors, NamesTheUnknownThatDisagrees) {
   // Every edge has the height that it should have but for the stated mean, which is far off.
   const Cuboid& cuboid = CuboidOf("B4");
@@ -193,7 +225,7 @@ TEST(CalibrateErrors, NamesTheUnknownThatDisagrees) {
                                        return benchmark::NumbersOf(cuboid, u, 3);
                                      });
     const std::string told =
-        estimates ? estimates->front().warnings.front() : estimates.error().detail;
+        estimates ? estimates->front().disagreement->text : estimates.error().detail;
     EXPECT_NE(told.find(fmt::format("`{}` is farthest off", names[i])), std::string::npos) << told;
   }
 }

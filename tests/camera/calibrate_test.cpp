@@ -439,7 +439,7 @@ TEST(Calibrate, ASmallWindowHasTwoPosesAndANearOneHasOne) {
   ASSERT_TRUE(estimate.has_value()) << estimate.error().detail;
   ASSERT_EQ(estimate->alternatives.size(), 1u);
   ExpectSame(estimate->camera, far.truth, 1e-5);
-  const Alternative& other = estimate->alternatives[0];
+  const Estimate& other = estimate->alternatives[0];
   ASSERT_EQ(other.covariance.rows(), kParameters);
   EXPECT_GT(other.covariance.diagonal().minCoeff(), 0);
   // The pose is another one, and so are its deviations.
@@ -454,6 +454,70 @@ TEST(Calibrate, ASmallWindowHasTwoPosesAndANearOneHasOne) {
   ASSERT_TRUE(only.has_value());
   EXPECT_TRUE(only->alternatives.empty());
   ExpectSame(only->camera, near.truth, 1e-5);
+}
+
+// A beam stands out of a far window by an unknown length, which is as long to the other side in the
+// other pose: both are found, and the likelier one is given, wherever its length starts.
+TEST(Calibrate, AnUnknownHidesNoSecondPose) {
+  Scene far = FarWindow(150);
+  scenes::Noise noise(5);
+  far.photograph.traces.clear();
+  for (const double right : {0.0, 0.6, 1.2}) {
+    far.Point({right, 0, 0});
+    far.Point({right, 0, 2.1});
+  }
+  far.Point({0.6, 1, 1});
+  for (Trace& trace : far.photograph.traces) {
+    if (auto* point = std::get_if<PointTrace>(&trace)) {
+      point->dot_px += 0.5 * Vec2(noise.Draw(), noise.Draw());
+    }
+  }
+  const int end = std::get<PointTrace>(far.photograph.traces.back()).at + 1;
+  std::vector<Estimate> found;
+  for (const double start : {1.0, -1.0, 3.0}) {
+    const auto estimates =
+        Calibrate(std::vector{far.photograph}, std::vector<Unknown>{{"beam", start, 0, -5, 5}},
+                  [&](const Eigen::VectorXd& u) -> geom::Result<Numbers> {
+                    Numbers numbers = far.list.numbers(1);
+                    numbers.values[end] = u[0];
+                    numbers.by_unknown(end, 0) = 1;
+                    return numbers;
+                  });
+    ASSERT_TRUE(estimates.has_value()) << estimates.error().detail;
+    found.push_back(estimates->front());
+    const Estimate& one = found.back();
+    ASSERT_EQ(one.alternatives.size(), 1u) << start << ": " << one.chi2;
+    EXPECT_LT(one.alternatives[0].unknowns[0].value * one.unknowns[0].value, 0);
+    EXPECT_GE(one.alternatives[0].chi2, one.chi2);
+    EXPECT_NEAR(one.unknowns[0].value, found[0].unknowns[0].value, 1e-4);
+  }
+}
+
+// A photograph of which one line is traced says nothing of its camera, and of the others' as much
+// as they do alone.
+TEST(Calibrate, AnOpenPhotographLeavesTheOthersAsTheyAre) {
+  const Scene sound = Townhouse();
+  Photograph open;
+  open.frame = sound.photograph.frame;
+  open.traces = {sound.photograph.traces[5]};
+  const auto estimates = Calibrate(
+      std::vector{sound.photograph, open}, {},
+      [&](const Eigen::VectorXd&) -> geom::Result<Numbers> { return sound.list.numbers(); });
+  ASSERT_TRUE(estimates.has_value()) << estimates.error().detail;
+  EXPECT_TRUE(estimates->front().determined());
+  EXPECT_TRUE(estimates->front().undetermined.empty());
+  EXPECT_FALSE(estimates->back().determined());
+  EXPECT_TRUE(Mentions(estimates->back().undetermined, "focal length"));
+}
+
+// One rectangle and the usual priors: a camera that may be used, and that the data do not
+// determine.
+TEST(Calibrate, WhatOnlyAPriorHoldsIsNotDetermined) {
+  const Scene far = FarWindow(12);
+  const auto estimate = Calibrate(far.photograph, far.list.numbers());
+  ASSERT_TRUE(estimate.has_value());
+  EXPECT_TRUE(estimate->complete());
+  EXPECT_FALSE(estimate->determined());
 }
 
 TEST(Calibrate, ASecondPoseIsToldOfAnOpenCameraToo) {
