@@ -98,7 +98,8 @@ void AddScriptVerbs(CLI::App* app, Choices* choices, int* status) {
   verb->add_option("--journal", run.journal,
                    "writes what was done, step by step, for `tranos replay`")
       ->type_name("FILE");
-  verb->add_option("--threads", run.threads, "threads for pictures; as many as cores, if not given")
+  verb->add_option("--threads", run.script.threads,
+                   "threads for pictures; as many as cores, if not given")
       ->type_name("N")
       ->check(Quiet(CLI::Range(1, 256)));
   verb->callback([&run, status] { *status = RunVerb(run); });

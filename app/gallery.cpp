@@ -106,7 +106,8 @@ tl::expected<std::string, std::string> PictureOf(const std::string& words, int t
   model::RenderRequest request;
   request.model = Placed(LineOf(words), &problem).outcome.state.model;
   if (!problem.empty()) return tl::make_unexpected(problem);
-  request.view = {model::RenderMode::kPhong, true, true, "iso"};
+  request.view = {
+      .mode = model::RenderMode::kPhong, .antialias = true, .shadows = true, .direction = "iso"};
   request.width_px = kWidth_px;
   request.height_px = kHeight_px;
   auto bytes = output::PictureFileOf(request, threads);

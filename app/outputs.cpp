@@ -4,9 +4,12 @@
 #include <algorithm>
 #include <map>
 #include <new>
-#include <thread>
 
+#include "app/orthophoto_json.h"
+#include "app/photo_truth.h"
 #include "output/camera_files.h"
+#include "output/orthophoto.h"
+#include "output/png.h"
 #include "output/write.h"
 
 namespace tranos::app {
@@ -38,7 +41,9 @@ std::vector<Request> RequestsOf(const interp::ScriptResult& result, const std::s
   };
   const std::string model_path = stem + ".glb";
   const auto end = static_cast<std::uint32_t>(result.sources->files[0].text.size());
-  add(model::ExportRequest{outcome.state.model, model_path}, model_path, {0, end, end});
+  const bool photographs = outcome.state.drawing.view->photo;
+  add(model::ExportRequest{outcome.state.model, model_path, photographs}, model_path,
+      {0, end, end});
   all.back().label = "at its end the model is written";
   int picture = 0;
   for (std::size_t i = 0; i < outcome.outputs.size(); ++i) {
@@ -53,17 +58,47 @@ std::vector<Request> RequestsOf(const interp::ScriptResult& result, const std::s
 
 using Files = std::vector<output::NamedFile>;
 
-output::Result<Files> FilesOf(const Request& request, int threads) {
-  if (const auto* camera = std::get_if<model::CameraRequest>(&request.what)) {
-    return output::CameraFilesOf(*camera);
-  }
-  const auto* exported = std::get_if<model::ExportRequest>(&request.what);
-  auto bytes = exported
-                   ? output::ExportOf(exported->model, exported->file)
-                   : output::PictureFileOf(std::get<model::RenderRequest>(request.what), threads);
-  if (!bytes) return tl::unexpected(bytes.error());
-  return Files{{request.path, std::move(*bytes)}};
+// "old/p.png" → "old/p.json"
+std::string TruthPath(const std::string& picture) {
+  return picture.substr(0, picture.rfind('.')) + ".json";
 }
+
+// One function for each kind of output: what it writes.
+struct Maker {
+  const std::string& path;
+  int threads;
+
+  output::Result<Files> operator()(const model::ExportRequest& request) const {
+    return One(output::ExportOf(request, threads));
+  }
+  output::Result<Files> operator()(const model::RenderRequest& request) const {
+    return One(output::PictureFileOf(request, threads));
+  }
+  output::Result<Files> operator()(const model::CameraRequest& request) const {
+    return output::CameraFilesOf(request);
+  }
+  output::Result<Files> operator()(const model::PhotoFileRequest& request) const {
+    const camera::Photo& photo = *request.pixels;
+    auto files = One(output::PngOf({photo.width_px, photo.height_px, photo.rgb}));
+    if (files) {
+      files->push_back({TruthPath(path), PhotoTruthJson(*request.taken_as, path)});
+    }
+    return files;
+  }
+
+  output::Result<Files> operator()(const model::OrthophotoRequest& request) const {
+    const auto made = output::Rectify(*request.made, threads);
+    if (!made) return tl::unexpected(made.error());
+    auto files = One(output::PngOf(made->picture));
+    if (files) files->push_back({TruthPath(path), OrthophotoJson(*request.made, made->seen, path)});
+    return files;
+  }
+
+  output::Result<Files> One(output::Result<std::string> bytes) const {
+    if (!bytes) return tl::unexpected(bytes.error());
+    return Files{{path, std::move(*bytes)}};
+  }
+};
 
 Diagnostic Refused(const Request& request, Code code, const std::string& why, std::string help) {
   return {code, request.span, "`" + request.path + "` cannot be made: " + why, request.label,
@@ -72,7 +107,7 @@ Diagnostic Refused(const Request& request, Code code, const std::string& why, st
 
 tl::expected<Files, Diagnostic> MadeBy(const Request& request, int threads) {
   try {
-    auto files = FilesOf(request, threads);
+    auto files = std::visit(Maker{request.path, threads}, request.what);
     if (files) return std::move(*files);
     const bool is_camera = std::holds_alternative<model::CameraRequest>(request.what);
     return tl::unexpected(Refused(
@@ -88,6 +123,10 @@ tl::expected<Files, Diagnostic> MadeBy(const Request& request, int threads) {
 
 // All that it writes, before any of it is made.
 tl::expected<std::vector<std::string>, Diagnostic> PathsOf(const Request& request) {
+  if (std::holds_alternative<model::PhotoFileRequest>(request.what) ||
+      std::holds_alternative<model::OrthophotoRequest>(request.what)) {
+    return std::vector{request.path, TruthPath(request.path)};
+  }
   const auto* camera = std::get_if<model::CameraRequest>(&request.what);
   if (!camera) return std::vector{request.path};
   auto paths = output::CameraPathsOf(*camera);
@@ -115,9 +154,7 @@ Written Failed(Diagnostic diagnostic) {
 }  // namespace
 
 Written WriteOutputs(const ScriptRun& run, const RunVerbOptions& options, Progress* progress) {
-  const int threads = options.threads > 0
-                          ? options.threads
-                          : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  const int threads = ThreadsOf(options.script.threads);
   const std::vector<Request> requests = RequestsOf(run.result, StemOf(options.script.script));
   auto writer = Writer::Into(options.output, run.sandbox.get());
   if (!writer) return Failed(FromHost(writer.error(), options.output, kNoPlace));

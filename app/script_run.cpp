@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/script_run.h"
 
+#include <algorithm>
+#include <thread>
+
 #include "app/memory_limit.h"
+#include "output/photograph.h"
 
 namespace tranos::app {
 
@@ -25,13 +29,21 @@ std::string Open(const ScriptOptions& options, ScriptRun* run) {
   return std::move(*text);
 }
 
-interp::Host HostFor(Sandbox* sandbox, bool print_to_error, Progress* progress) {
+tl::expected<camera::PhotoPtr, std::string> TakenBy(const model::PhotoRequest& request,
+                                                    int threads) {
+  auto photo = output::TakePhotograph(request, threads);
+  if (!photo) return tl::make_unexpected(photo.error().message);
+  return std::make_shared<const camera::Photo>(std::move(*photo));
+}
+
+interp::Host HostFor(Sandbox* sandbox, bool print_to_error, int threads, Progress* progress) {
   return {[sandbox](std::string_view path) { return sandbox->Read(path); },
           [print_to_error, progress](std::string_view line) {
             if (progress) progress->Hide();
             const std::string text = std::string(line) + "\n";
             print_to_error ? PrintError(text) : PrintOut(text);
-          }};
+          },
+          [threads](const model::PhotoRequest& request) { return TakenBy(request, threads); }};
 }
 
 int StatusOf(const interp::ScriptResult& result) {
@@ -67,6 +79,10 @@ void PrintFailedAssertion(const interp::AssertResult& assertion, const interp::S
 
 }  // namespace
 
+int ThreadsOf(int asked) {
+  return asked > 0 ? asked : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+}
+
 std::string FolderOf(const std::string& path) {
   const std::size_t slash = path.rfind('/');
   if (slash == std::string::npos) return ".";
@@ -93,8 +109,9 @@ ScriptRun RunScriptFile(const ScriptOptions& options, bool print_to_error,
       progress->Tell(std::to_string(steps / 1000) + " thousand steps");
     };
   }
-  run.result = interp::RunScript(NameOf(options.script), std::move(text), BindOptionsOf(options),
-                                 run_options, HostFor(run.sandbox.get(), print_to_error, progress));
+  run.result = interp::RunScript(
+      NameOf(options.script), std::move(text), BindOptionsOf(options), run_options,
+      HostFor(run.sandbox.get(), print_to_error, ThreadsOf(options.threads), progress));
   run.status = StatusOf(run.result);
   return run;
 }
@@ -104,7 +121,7 @@ ScriptRun CheckScriptFile(const ScriptOptions& options) {
   std::string text = Open(options, &run);
   if (run.status != kFine) return run;
   run.result = interp::CheckScript(NameOf(options.script), std::move(text), BindOptionsOf(options),
-                                   HostFor(run.sandbox.get(), true, nullptr));
+                                   HostFor(run.sandbox.get(), true, 1, nullptr));
   run.status = StatusOf(run.result);
   return run;
 }

@@ -35,6 +35,8 @@ ScriptRun CheckScriptFile(const ScriptOptions& options);
 void NamePathsFromHere(const ScriptOptions& options, ScriptRun* run);
 // Diagnostics, undeclared parameters and failed assertions, on standard error.
 void PrintProblems(const ScriptRun& run);
+// How many threads pictures are made with: as many as were asked for, or as there are cores.
+int ThreadsOf(int asked);
 // The folder of a path, without its slash; "." if it names none.
 std::string FolderOf(const std::string& path);
 std::string NameOf(const std::string& path);  // "elements/church.trn" → "church.trn"

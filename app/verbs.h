@@ -17,6 +17,7 @@ struct ScriptOptions {
   std::string hypothesis;
   interp::Limits limits;
   std::vector<std::string> allow;  // further folders that may be read
+  int threads = 0;                 // of pictures; 0: as many as there are cores
 };
 
 struct RunVerbOptions {
@@ -25,7 +26,6 @@ struct RunVerbOptions {
   bool json = false;
   bool no_output = false;
   std::string journal;
-  int threads = 0;  // 0: as many as there are cores
 };
 int RunVerb(const RunVerbOptions& options);
 

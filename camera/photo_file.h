@@ -12,11 +12,12 @@ namespace tranos::camera {
 
 using PhotoPtr = std::shared_ptr<const Photo>;
 
-// The bytes of a file. Many may hold it and ask for its pixels at once: they are decoded one time
-// and are the same object for all.
+// The bytes of a file, or pixels that came from nowhere else. Many may hold it and ask for its
+// pixels at once: they are decoded one time and are the same object for all.
 class PhotoFile {
  public:
   explicit PhotoFile(std::string bytes) : bytes_(std::move(bytes)) {}
+  explicit PhotoFile(PhotoPtr pixels) : pixels_(std::move(pixels)) {}
 
   // Upright, 8 bits a channel. Errors of DecodePhoto.
   geom::Result<PhotoPtr> Pixels() const;

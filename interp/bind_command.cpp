@@ -301,11 +301,11 @@ void Binder::BindPoint(NodeId id, const PointKeyRow& row, const std::vector<Node
   const Span span = SpanOf(id);
   const auto kind = static_cast<std::uint8_t>(row.kind);
   const auto packed = static_cast<std::uint8_t>(kind | kPackedPoint);
-  if (row.kind == PointKey::kOn ||
-      (count == 1 && row.kind != PointKey::kDl && row.kind != PointKey::kDx)) {
-    Emit({Op::kPoint, packed, 0, 0,
-          single(values[0], row.kind == PointKey::kOn ? Type::kAny : Type::kPoint), 1},
-         span);
+  if (count == 1 && row.kind != PointKey::kDl && row.kind != PointKey::kDx) {
+    const Type whole = row.kind == PointKey::kOn    ? Type::kAny
+                       : row.kind == PointKey::kDot ? Type::kDot
+                                                    : Type::kPoint;
+    Emit({Op::kPoint, packed, 0, 0, single(values[0], whole), 1}, span);
     return;
   }
   std::vector<Value> constants;

@@ -136,7 +136,7 @@ Fired Machine::Calibrate(const Answers& answers, const model::State& state, Span
     Fail(Code::kNoPhotograph, span, "there is no photograph to calibrate", "",
          "attach photo \"fire_1917.png\" format=40.5mm,26.7mm as fire");
   }
-  const Host silent{host_.read, nullptr};
+  const Host silent{.read = host_.read, .render_photo = host_.render_photo};
   Evaluation evaluation(*this, silent, state, traced, span);
   const Method method{answers.Text("method", "likelihood"), RangeOf(answers, span)};
   Eigen::VectorXd start(static_cast<Eigen::Index>(evaluation.unknowns().size()));

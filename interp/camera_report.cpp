@@ -174,7 +174,7 @@ std::string UnknownText(const Photograph& photograph, const camera::Estimate& es
 
 std::vector<std::string> CameraReport(const model::Element& element, const Photograph& photograph) {
   const camera::Estimate& estimate = *photograph.estimate;
-  const bool stated = photograph.file.empty() || !photograph.camera_file.empty();
+  const bool stated = !photograph.attached || !photograph.camera_file.empty();
   std::vector<std::string> lines;
   lines.push_back(fmt::format("camera {}: {} × {} px, {:g} mm × {:g} mm{}", element.name_or_empty(),
                               photograph.frame.size_px.x(), photograph.frame.size_px.y(),

@@ -17,14 +17,21 @@ std::size_t RankOf(std::string_view family) { return kFamilies.find(family); }
 
 std::vector<Command> Collect() {
   std::vector<Command> all;
-  for (const auto family :
-       {PlaceCommands(),     PlaceCurveCommands(),     PlaceSolidCommands(),   PlaceWallCommands(),
-        ChooseCommands(),    CreateCommands(),         TransformCommands(),    ArrayCommands(),
-        EditCommands(),      OffsetCommands(),         CutCommands(),          CornerCommands(),
-        ConstructCommands(), ConstructSolidCommands(), SolidBooleanCommands(), SymmetryCommands(),
-        PlaneCommands(),     ViewCommands(),           OutputCommands(),       PhotographCommands(),
-        FacadeCommands(),    PriorCommands(),          TraceCommands(),        DetectCommands(),
-        CalibrateCommands(), HistoryCommands(),        LaterCommands()}) {
+  for (const auto family : {PlaceCommands(),        PlaceCurveCommands(),
+                            PlaceSolidCommands(),   PlaceWallCommands(),
+                            ChooseCommands(),       CreateCommands(),
+                            TransformCommands(),    ArrayCommands(),
+                            EditCommands(),         OffsetCommands(),
+                            CutCommands(),          CornerCommands(),
+                            ConstructCommands(),    ConstructSolidCommands(),
+                            SolidBooleanCommands(), SymmetryCommands(),
+                            PlaneCommands(),        ViewCommands(),
+                            OutputCommands(),       PhotographCommands(),
+                            RenderPhotoCommands(),  OrthophotoCommands(),
+                            FacadeCommands(),       PriorCommands(),
+                            TraceCommands(),        DetectCommands(),
+                            CalibrateCommands(),    HistoryCommands(),
+                            LaterCommands()}) {
     all.insert(all.end(), family.begin(), family.end());
   }
   std::stable_sort(all.begin(), all.end(), [](const Command& a, const Command& b) {

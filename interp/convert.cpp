@@ -47,6 +47,8 @@ std::string_view ExampleOf(Type type) {
       return "points such as [[0,0],[5m,0]]";
     case Type::kSize:
       return "a size such as 1280,960";
+    case Type::kDot:
+      return "a dot such as 102.5,211";
     case Type::kScale:
       return "one or three numbers";
     default:
@@ -166,6 +168,15 @@ Value ToSize(const Target& target, const Value& value) {
   return Value::List(std::move(sides));
 }
 
+Value ToDot(const Target& target, const Value& value) {
+  if (!value.is_list() || value.list().size() != 2) target.Fail(value);
+  std::vector<Value> coordinates;
+  for (const Value& item : value.list()) {
+    coordinates.push_back(ToDimension(target, item, model::kPixel));
+  }
+  return Value::List(std::move(coordinates));
+}
+
 // Lists in lists (what a loop named, beside a single element) are laid out flat.
 Value ToElements(const Target& target, const Value& value) {
   std::vector<Value> elements;
@@ -246,6 +257,8 @@ Value Convert(const Value& value, Type type, const Unit& unit, std::string_view 
       return ToScale(target, value);
     case Type::kSize:
       return ToSize(target, value);
+    case Type::kDot:
+      return ToDot(target, value);
   }
   return value;
 }

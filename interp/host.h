@@ -3,9 +3,17 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <tl/expected.hpp>
+
+namespace tranos::camera {
+struct Photo;
+}
+namespace tranos::model {
+struct PhotoRequest;
+}
 
 namespace tranos::interp {
 
@@ -16,9 +24,14 @@ struct HostError {
 
 struct Host {
   // The bytes of a regular file below the script's folder or one allowed; never through a link.
-  std::function<tl::expected<std::string, HostError>(std::string_view path)> read;
+  std::function<tl::expected<std::string, HostError>(std::string_view path)> read = nullptr;
   // Shows a line of `print` as it happens.
-  std::function<void(std::string_view line)> print;
+  std::function<void(std::string_view line)> print = nullptr;
+  // A photograph of the model as a camera would take it, or why there is none. Null in a replay,
+  // which needs no pixels.
+  std::function<tl::expected<std::shared_ptr<const camera::Photo>, std::string>(
+      const model::PhotoRequest& request)>
+      render_photo = nullptr;
 };
 
 }  // namespace tranos::interp

@@ -41,7 +41,7 @@ Machine::Machine(const Program& program, const RunOptions& options, const Host& 
     : program_(program),
       options_(options),
       outer_host_(host),
-      host_{host.read, [this](std::string_view line) { Print(line); }},
+      host_{host.read, [this](std::string_view line) { Print(line); }, host.render_photo},
       budget_(options.limits) {
   if (options.on_progress) budget_.on_progress = &options.on_progress;
   unsolved_ = program.calibrates;
@@ -117,11 +117,7 @@ Outcome Machine::Run() {
 void Machine::EvaluateSolids(const model::Model& last) const {
   const auto force = [&](const model::ElementPtr& element) { solids_.Force(*element, {}); };
   for (const model::OutputRequest& output : outcome_.outputs) {
-    if (const auto* render = std::get_if<model::RenderRequest>(&output)) {
-      render->model.ForEach(force);
-    } else if (const auto* exported = std::get_if<model::ExportRequest>(&output)) {
-      exported->model.ForEach(force);
-    }
+    if (const model::Model* shown = model::ModelOf(output)) shown->ForEach(force);
   }
   last.ForEach(force);
 }

@@ -297,6 +297,14 @@ std::optional<Value> FacadeMember(const model::Facade& facade, std::string_view 
   return std::nullopt;
 }
 
+std::optional<Value> OrthophotoMember(const model::Orthophoto& made, std::string_view name) {
+  if (name == "width") return Length(made.size_m().x());
+  if (name == "height") return Length(made.size_m().y());
+  if (name == "pixel") return Length(made.pixel_m);
+  if (name == "sampling") return Length(made.sampling_m);
+  return std::nullopt;
+}
+
 // What only this kind of element has.
 std::optional<Value> OwnMember(const CallContext& context, const ElementPtr& named,
                                std::string_view name) {
@@ -322,6 +330,9 @@ std::optional<Value> OwnMember(const CallContext& context, const ElementPtr& nam
   if (const auto* facade = std::get_if<model::FacadePtr>(&element.geometry)) {
     return FacadeMember(**facade, name);
   }
+  if (const auto* made = std::get_if<model::OrthophotoPtr>(&element.geometry)) {
+    return OrthophotoMember(**made, name);
+  }
   if (const auto* group = std::get_if<model::GroupPtr>(&element.geometry)) {
     return GroupMember(context, element, **group, name);
   }
@@ -345,6 +356,9 @@ std::vector<std::string> OwnMembers(const Element& element) {
   if (std::holds_alternative<model::TracePtr>(element.geometry)) return {"dots", "noise"};
   if (std::holds_alternative<model::FacadePtr>(element.geometry)) {
     return {"plane", "origin", "right", "up", "normal"};
+  }
+  if (std::holds_alternative<model::OrthophotoPtr>(element.geometry)) {
+    return {"width", "height", "pixel", "sampling"};
   }
   std::vector<std::string> names;
   if (const auto* group = std::get_if<model::GroupPtr>(&element.geometry)) {

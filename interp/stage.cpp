@@ -244,8 +244,7 @@ Vec3 PlaceOf(PointKey kind, const Value& values, const model::Drawing& drawing, 
       return last + plane.ToWorld(local) - plane.origin;
     }
     case PointKey::kDx: {
-      const std::string& direction = drawing.view->direction;
-      const geom::Frame view = model::FrameOf(direction.empty() ? "top" : direction);
+      const geom::Frame view = model::FrameOf(*drawing.view, "top");
       return last + view.ToWorld(v) - view.origin;
     }
     case PointKey::kDot:

@@ -208,7 +208,7 @@ void Stage::WarnTooLate(const model::Edit& edit) const {
     const auto* trace = std::get_if<model::TracePtr>(&element->geometry);
     const ElementPtr of = trace ? state_.model.Current((*trace)->photograph) : nullptr;
     const auto* photograph = of ? std::get_if<model::PhotographPtr>(&of->geometry) : nullptr;
-    if (photograph && (*photograph)->file.empty()) return;
+    if (photograph && !(*photograph)->attached) return;
   }
   links_.diagnostics->Add(
       {Code::kTakesNoPart, active_.span,

@@ -31,7 +31,7 @@ class Gathering {
     });
     ForEachPart([&](const ElementPtr& element) {
       const auto* photograph = std::get_if<model::PhotographPtr>(&element->geometry);
-      const bool is_attached = photograph && !(*photograph)->file.empty();
+      const bool is_attached = photograph && (*photograph)->attached;
       const bool has_camera = photograph && !(*photograph)->camera_file.empty();
       const bool meant = only == model::kNoElement
                              ? is_attached && (!has_camera || traced.contains(element->id))

@@ -36,6 +36,7 @@ constexpr std::array kNames = {
     TypeName{Type::kElements, "", "an element or a list of elements"},
     TypeName{Type::kPoints, "", "a list of points"},
     TypeName{Type::kSize, "", "a width and a height in pixels"},
+    TypeName{Type::kDot, "", "a dot"},
 };
 
 }  // namespace

@@ -33,6 +33,7 @@ enum class Type : std::uint8_t {
   kElements,  // an element or a list of them
   kPoints,    // a list of points
   kSize,      // two counts, in pixels
+  kDot,       // a list of u and v, in pixels
 };
 
 // "a length", "a count", … for messages.

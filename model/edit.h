@@ -7,6 +7,7 @@
 #include <variant>
 #include <vector>
 
+#include "model/photo_request.h"
 #include "model/state.h"
 
 namespace tranos::model {
@@ -19,7 +20,19 @@ struct RenderRequest {
 };
 struct ExportRequest {
   Model model;
-  std::string file;  // its extension chooses the format
+  std::string file;          // its extension chooses the format
+  bool photographs = false;  // as planes at their frames, where the format can hold them
+};
+// A photograph that has been taken, and beside it, as JSON, how it came to be.
+struct PhotoFileRequest {
+  std::shared_ptr<const PhotoRequest> taken_as;
+  camera::PhotoPtr pixels;
+  std::string file;
+};
+// An orthophoto, and beside it, as JSON, where it lies and what is not seen of it.
+struct OrthophotoRequest {
+  OrthophotoPtr made;
+  std::string file;
 };
 // How other programs keep a camera.
 enum class CameraFormat : std::uint8_t {
@@ -36,7 +49,10 @@ struct CameraRequest {
   CameraFormat format;
   std::string file;  // of COLMAP a folder
 };
-using OutputRequest = std::variant<RenderRequest, ExportRequest, CameraRequest>;
+using OutputRequest =
+    std::variant<RenderRequest, ExportRequest, CameraRequest, PhotoFileRequest, OrthophotoRequest>;
+// The model that it shows or tells of; null if it is of none.
+const Model* ModelOf(const OutputRequest& request);
 
 struct Edit {
   std::vector<ElementPtr> added;     // Apply gives them their ids, in order

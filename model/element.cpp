@@ -33,6 +33,7 @@ enum Tag : std::uint8_t {
   kRegion,
   kRegionPart,
   kFacade,
+  kOrthophoto,
 };
 
 void AddCount(Hasher& hasher, std::size_t count) {
@@ -148,6 +149,7 @@ void Add(Hasher& hasher, const PhotographPtr& photograph) {
 }
 void Add(Hasher& hasher, const TracePtr& trace) { AddToHash(hasher.Tag(kTrace), *trace); }
 void Add(Hasher& hasher, const FacadePtr& facade) { AddToHash(hasher.Tag(kFacade), *facade); }
+void Add(Hasher& hasher, const OrthophotoPtr& made) { AddToHash(hasher.Tag(kOrthophoto), *made); }
 
 Hash128 HashOf(const Element& element) {
   Hasher hasher;
@@ -229,7 +231,8 @@ ElementPtr WithAttributes(const Element& element, AttributesPtr attributes) {
 bool IsBuilt(const Element& element) {
   return !std::holds_alternative<PhotographPtr>(element.geometry) &&
          !std::holds_alternative<TracePtr>(element.geometry) &&
-         !std::holds_alternative<FacadePtr>(element.geometry);
+         !std::holds_alternative<FacadePtr>(element.geometry) &&
+         !std::holds_alternative<OrthophotoPtr>(element.geometry);
 }
 
 int DepthOf(const Element& element) {
@@ -291,10 +294,11 @@ std::string TypeOf(const Element& element) {
     std::string operator()(const GroupPtr&) const { return "group"; }
     std::string operator()(const InstancePtr& instance) const { return instance->prototype->words; }
     std::string operator()(const PhotographPtr& photograph) const {
-      return photograph->file.empty() ? "camera" : "photograph";
+      return IsStatedCamera(*photograph) ? "camera" : "photograph";
     }
     std::string operator()(const TracePtr& trace) const { return model::TypeOf(*trace); }
     std::string operator()(const FacadePtr&) const { return "facade"; }
+    std::string operator()(const OrthophotoPtr&) const { return "orthophoto"; }
   };
   return std::visit(Type{}, element.geometry);
 }

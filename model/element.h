@@ -19,6 +19,7 @@
 #include "geom/surface.h"
 #include "model/facade.h"
 #include "model/hash.h"
+#include "model/orthophoto.h"
 #include "model/photograph.h"
 #include "model/value.h"
 
@@ -138,8 +139,9 @@ using InstancePtr = std::shared_ptr<const Instance>;
 using PhotographPtr = std::shared_ptr<const Photograph>;
 using TracePtr = std::shared_ptr<const Trace>;
 using FacadePtr = std::shared_ptr<const Facade>;
+using OrthophotoPtr = std::shared_ptr<const Orthophoto>;
 using Geometry = std::variant<Point, CurvePtr, SurfacePtr, RegionPtr, SolidPtr, TextPtr, GroupPtr,
-                              InstancePtr, PhotographPtr, TracePtr, FacadePtr>;
+                              InstancePtr, PhotographPtr, TracePtr, FacadePtr, OrthophotoPtr>;
 
 // How an element lies where one of the sources that it hangs on is a step from where it is taken to
 // be, to either side: the differences are its derivatives by it. What was drawn through a
@@ -176,7 +178,7 @@ GroupPtr MapMembers(const Group& group, const std::function<ElementPtr(const Ele
 // Groups member by member; an instance by its transform alone.
 ElementPtr Transformed(const Element& element, const geom::Affine& target_from_source);
 
-// Whether it is a part of what is built: no photograph, camera, trace or facade.
+// Whether it is a part of what is built: no photograph, camera, trace, facade or orthophoto.
 bool IsBuilt(const Element& element);
 
 // How many groups and placed elements lie in one another, the element included: 0 for one that has
@@ -184,8 +186,8 @@ bool IsBuilt(const Element& element);
 int DepthOf(const Element& element);
 
 // "point", "line", "arc", "circle", "line string", "shape", "curve", "chain", "surface", "region",
-// "solid", "text", "group", "photograph", "camera", "trace edge" …, "facade", or an instance's
-// words.
+// "solid", "text", "group", "photograph", "camera", "trace edge" …, "facade", "orthophoto", or an
+// instance's words.
 std::string TypeOf(const Element& element);
 
 // Measures. Nothing where the element has none of the kind: a point has no length, an open curve

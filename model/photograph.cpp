@@ -20,8 +20,16 @@ double Rounded(double number) {
 
 }  // namespace
 
+bool IsStatedCamera(const Photograph& photograph) {
+  return !photograph.attached && photograph.content == Hash128{};
+}
+
+bool HasCamera(const Photograph& photograph) {
+  return photograph.estimate && photograph.estimate->complete();
+}
+
 void AddToHash(Hasher& hasher, const Photograph& photograph) {
-  hasher.Text(photograph.file).Hash(photograph.content);
+  hasher.Text(photograph.file).Hash(photograph.content).Tag(photograph.attached);
   const auto& [size_mm, size_px] = photograph.frame;
   hasher.Ratio(size_mm.x()).Ratio(size_mm.y()).Integer(size_px.x()).Integer(size_px.y());
   for (const camera::Prior& prior : photograph.priors) {

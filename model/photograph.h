@@ -19,10 +19,11 @@ struct Element;
 
 // A photograph, or a camera that was stated without one.
 struct Photograph {
-  std::string file;      // as the script gives it; "" for a stated camera
-  Hash128 content = {};  // of the file's bytes
+  std::string file;      // as the script gives it; "" for a stated camera, or one made by rendering
+  Hash128 content = {};  // of the file's bytes, or of all that a rendered one was made from
   // Null for a stated camera, and in a replay, which needs no pixels.
   std::shared_ptr<const camera::PhotoFile> picture = nullptr;
+  bool attached = false;  // what `calibrate` adjusts; a rendered one is not until it is attached
   camera::Frame frame = {};
   std::string camera_file = {};  // that the estimate was read from; "" if it was not
   bool format_is_stated = true;  // else the longer side is taken for 36 mm
@@ -53,6 +54,11 @@ struct Trace {
   double samples = 0;     // pixels that the line was fitted to; 0: its dots alone
 };
 
+// Whether it is a camera that was stated, with no picture to it.
+bool IsStatedCamera(const Photograph& photograph);
+// Whether every number of its camera is known, if only with priors: it can be drawn, seen and
+// exported through.
+bool HasCamera(const Photograph& photograph);
 void AddToHash(Hasher& hasher, const Photograph& photograph);
 void AddToHash(Hasher& hasher, const Trace& trace);
 std::string TypeOf(const Trace& trace);  // "trace edge", "trace rectangle", …

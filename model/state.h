@@ -59,9 +59,14 @@ struct View {
   RenderMode mode = RenderMode::kPhong;
   bool antialias = false;
   bool shadows = false;
-  std::string direction;  // "front" … "iso"; "" until `view` is used, which renders as iso
+  bool textured = false;        // faces bear the orthophotos that lie in their planes
+  bool photo = false;           // photographs are seen: behind all, or as planes at their frames
+  std::string direction;        // "front" … "iso"; "" until `view` is used, which renders as iso
+  ElementPtr camera = nullptr;  // through which it is seen, in place of a direction
 };
 geom::Frame FrameOf(std::string_view direction);  // x right, y up, z towards the viewer
+// The axes of the view; as `otherwise` where none was chosen yet.
+geom::Frame FrameOf(const View& view, std::string_view otherwise);
 
 struct Drawing {
   SettingsPtr settings = std::make_shared<const Settings>();

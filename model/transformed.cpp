@@ -38,6 +38,7 @@ struct TransformedGeometry {
   Geometry operator()(const PhotographPtr& photograph) const { return photograph; }
   Geometry operator()(const TracePtr& trace) const { return trace; }
   Geometry operator()(const FacadePtr& facade) const { return facade; }
+  Geometry operator()(const OrthophotoPtr& made) const { return made; }
 };
 
 }  // namespace

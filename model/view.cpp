@@ -19,4 +19,11 @@ geom::Frame FrameOf(std::string_view direction) {
   return {origin, Vec3(1, 1, 0) / std::sqrt(2.0), Vec3(-1, 1, 2) / std::sqrt(6.0)};
 }
 
+geom::Frame FrameOf(const View& view, std::string_view otherwise) {
+  if (!view.camera) return FrameOf(view.direction.empty() ? otherwise : view.direction);
+  const auto& photograph = *std::get<PhotographPtr>(view.camera->geometry);
+  const camera::Mat3 axes = camera::CameraFromWorld(photograph.estimate->camera.parameters);
+  return {geom::Vec3::Zero(), axes.row(0).transpose(), -axes.row(1).transpose()};
+}
+
 }  // namespace tranos::model

@@ -90,6 +90,7 @@ struct FacetMaker {
   geom::Result<Facets> operator()(const model::PhotographPtr&) const { return Facets{}; }
   geom::Result<Facets> operator()(const model::TracePtr&) const { return Facets{}; }
   geom::Result<Facets> operator()(const model::FacadePtr&) const { return Facets{}; }
+  geom::Result<Facets> operator()(const model::OrthophotoPtr&) const { return Facets{}; }
 };
 
 }  // namespace

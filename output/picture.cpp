@@ -36,6 +36,18 @@ void FillGround(const Ingredients& ingredients, Tile& tile) {
     const std::size_t first = static_cast<std::size_t>(y) * tile.side();
     std::fill_n(tile.samples.begin() + static_cast<std::ptrdiff_t>(first), tile.side(), ground);
   }
+  const Scene& scene = ingredients.scene;
+  if (!scene.backdrop) return;
+  for (int y = 0; y < tile.side(); ++y) {
+    for (int x = 0; x < tile.side(); ++x) {
+      const double across = tile.left_px + (x + 0.5) / tile.per_pixel - 0.5 * scene.camera.width_px;
+      const double up = 0.5 * scene.camera.height_px - tile.top_px - (y + 0.5) / tile.per_pixel;
+      const geom::Vec2 dot = scene.eye->DotAt(across, up);
+      if (const auto shade = Sample(*scene.backdrop, dot.x(), dot.y())) {
+        tile.samples[static_cast<std::size_t>(y) * tile.side() + x] = *shade;
+      }
+    }
+  }
 }
 
 void ShadeBlock(const Ingredients& ingredients, Tile& tile, int left, int top) {

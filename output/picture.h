@@ -9,11 +9,14 @@
 
 namespace tranos::output {
 
-// Rows from the top, three bytes a pixel: red, green, blue of sRGB.
+// Rows from the top, three bytes a pixel: red, green, blue of sRGB. `alpha` is empty, or a byte a
+// pixel: 0 where nothing is.
 struct Picture {
   int width_px = 0, height_px = 0;
   std::vector<std::uint8_t> rgb;
+  std::vector<std::uint8_t> alpha = {};
 };
+using Shade = Eigen::Vector3f;  // red, green, blue of the screen, 0 to 1
 
 // The largest side of a picture.
 inline constexpr int kMaxSide_px = 16384;

@@ -96,14 +96,22 @@ void AttachInstance(RTCDevice device, RTCScene scene, RTCScene part, const RaySu
   rtcAttachGeometryByID(scene, shape.handle, index);
 }
 
-void FillRays(const RayPacket& rays, const Eigen::Vector3f& direction, RTCRay16& query) {
+RayPacket Filled(const Eigen::Vector3f& v) {
+  RayPacket packet;
+  packet.x.fill(v.x());
+  packet.y.fill(v.y());
+  packet.z.fill(v.z());
+  return packet;
+}
+
+void FillRays(const RayPacket& rays, const RayPacket& directions, RTCRay16& query) {
   for (unsigned i = 0; i < kPacket; ++i) {
     query.org_x[i] = rays.x[i];
     query.org_y[i] = rays.y[i];
     query.org_z[i] = rays.z[i];
-    query.dir_x[i] = direction.x();
-    query.dir_y[i] = direction.y();
-    query.dir_z[i] = direction.z();
+    query.dir_x[i] = directions.x[i];
+    query.dir_y[i] = directions.y[i];
+    query.dir_z[i] = directions.z[i];
     query.tnear[i] = 0;
     query.tfar[i] = std::numeric_limits<float>::infinity();
     query.time[i] = 0;
@@ -159,12 +167,12 @@ Result<RayScene> RayScene::Of(const std::vector<RaySurface>& surfaces) {
   return RayScene(trees);
 }
 
-HitPacket RayScene::FirstHits(const RayPacket& rays) const {
+HitPacket RayScene::Meet(const RayPacket& rays, const RayPacket& directions) const {
   Context context;
   rtcInitIntersectContext(&context.base);
   context.depth.fill(-1);
   RTCRayHit16 query;
-  FillRays(rays, -Eigen::Vector3f::UnitZ(), query.ray);
+  FillRays(rays, directions, query.ray);
   alignas(64) std::array<int, kPacket> valid;
   valid.fill(-1);
   std::fill_n(query.hit.geomID, kPacket, kNone);
@@ -180,17 +188,27 @@ HitPacket RayScene::FirstHits(const RayPacket& rays) const {
     hits.triangle[i] = query.hit.primID[i];
     hits.u[i] = query.hit.u[i];
     hits.v[i] = query.hit.v[i];
-    hits.z[i] = rays.z[i] - query.ray.tfar[i];
+    hits.z[i] = query.ray.tfar[i];
   }
   return hits;
 }
 
-void RayScene::DropOccluded(const RayPacket& rays, const Eigen::Vector3f& direction,
+HitPacket RayScene::FirstHits(const RayPacket& rays) const {
+  HitPacket hits = Meet(rays, Filled(-Eigen::Vector3f::UnitZ()));
+  for (unsigned i = 0; i < kPacket; ++i) hits.z[i] = rays.z[i] - hits.z[i];
+  return hits;
+}
+
+HitPacket RayScene::FirstHitsFrom(const Eigen::Vector3f& point, const RayPacket& directions) const {
+  return Meet(Filled(point), directions);
+}
+
+void RayScene::DropOccluded(const RayPacket& rays, const RayPacket& directions,
                             LanePacket& lanes) const {
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   RTCRay16 query;
-  FillRays(rays, direction, query);
+  FillRays(rays, directions, query);
   alignas(64) std::array<int, kPacket> valid;
   for (unsigned i = 0; i < kPacket; ++i) valid[i] = lanes[i] ? -1 : 0;
   rtcOccluded16(valid.data(), trees_->world.handle, &context, &query);

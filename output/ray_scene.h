@@ -46,14 +46,16 @@ class RayScene {
 
   // What rays along −z meet.
   HitPacket FirstHits(const RayPacket& rays) const;
-  // Takes those out of `lanes` whose ray in this direction meets anything.
-  void DropOccluded(const RayPacket& rays, const Eigen::Vector3f& direction,
-                    LanePacket& lanes) const;
+  // What rays from one point meet, in these directions of unit length; z is the distance.
+  HitPacket FirstHitsFrom(const Eigen::Vector3f& point, const RayPacket& directions) const;
+  // Takes those out of `lanes` whose ray, each in its own direction, meets anything.
+  void DropOccluded(const RayPacket& rays, const RayPacket& directions, LanePacket& lanes) const;
   // Whether anything lies beyond `origin` in this direction.
   bool Occluded(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction) const;
 
  private:
   struct Trees;
+  HitPacket Meet(const RayPacket& rays, const RayPacket& directions) const;
   explicit RayScene(std::shared_ptr<const Trees> trees) : trees_(std::move(trees)) {}
   std::shared_ptr<const Trees> trees_;
 };

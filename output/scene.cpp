@@ -2,16 +2,16 @@
 #include "output/scene.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <memory>
-#include <unordered_map>
 #include <utility>
 
-#include "output/facets.h"
+#include "output/material.h"
 #include "output/mesh_lines.h"
 #include "output/parallel.h"
-#include "output/surface_colour.h"
+#include "output/parts.h"
 
 namespace tranos::output {
 namespace {
@@ -27,46 +27,11 @@ constexpr int kIsoPoints = 96;
 constexpr float kIsoOpacity = 0.4f;
 constexpr float kPointArm_px = 4;  // from a point's cross's centre to its ends
 
-// A visible part: where it stands and how it looks; what it is, is shared by all its placements.
-struct Placement {
-  std::size_t part;
-  Affine world_from_part;
-  model::Colour colour;
-  int linestyle, weight;
-};
-struct Part {
-  const model::Element* element = nullptr;
-  double largest_scale = 0;  // of its placements
-  geom::Box box;
-  Facets facets;
-  Vec3 centre = Vec3::Zero();
-  std::shared_ptr<const RayMesh> ray_mesh;
+// What a drawing shows of a part's mesh besides its faces.
+struct PartLines {
   std::vector<MeshEdge> edges;
   std::vector<std::vector<Vec3>> feature_lines, form_lines;
 };
-struct Parts {
-  std::vector<Part> parts;
-  std::vector<Placement> placements;
-};
-
-Parts VisibleParts(const model::Model& model) {
-  Parts result;
-  std::unordered_map<const model::Element*, std::size_t> known;
-  model.ForEach([&](const model::ElementPtr& element) {
-    model::ForEachLeaf(*element, [&](const model::Element& leaf, const Affine& world_from_leaf,
-                                     const model::Attributes& attributes) {
-      if (!model.LevelIsOn(attributes.level)) return;
-      const auto [entry, is_new] = known.try_emplace(&leaf, result.parts.size());
-      if (is_new) result.parts.emplace_back().element = &leaf;
-      Part& part = result.parts[entry->second];
-      part.largest_scale =
-          std::max(part.largest_scale, world_from_leaf.linear().colwise().norm().maxCoeff());
-      result.placements.push_back({entry->second, world_from_leaf, attributes.colour,
-                                   attributes.linestyle, attributes.weight});
-    });
-  });
-  return result;
-}
 
 // The length a pixel shows at most: from the boxes' corners, before there are facets to be
 // measured.
@@ -117,57 +82,30 @@ std::vector<std::vector<Vec3>> IsoLines(const geom::Surface& surface) {
   return lines;
 }
 
-std::shared_ptr<const RayMesh> RayMeshOf(const geom::Mesh& mesh, const Vec3& centre) {
-  const auto result = std::make_shared<RayMesh>();
-  const auto rounded = [](const Vec3& v) {
-    return std::array<float, 3>{static_cast<float>(v.x()), static_cast<float>(v.y()),
-                                static_cast<float>(v.z())};
-  };
-  for (const Vec3& p : mesh.positions) result->positions.push_back(rounded(p - centre));
-  for (const Vec3& n : mesh.normals) result->normals.push_back(rounded(n));
-  result->triangles = mesh.triangles;
-  return result;
-}
-
-std::optional<Error> CompletePart(Part& part, double pixel_m, model::RenderMode mode) {
-  const geom::Tolerance tolerance = {kChord_px * pixel_m / std::max(part.largest_scale, 1e-12),
-                                     part.element->tolerance.facets_per_turn};
-  Result<Facets> facets = FacetsOf(*part.element, tolerance);
-  if (!facets) return facets.error();
-  part.facets = *std::move(facets);
+PartLines LinesOf(const Part& part) {
   const geom::Mesh& mesh = part.facets.mesh;
-  if (mesh.triangles.empty()) return std::nullopt;
-  part.centre = part.box.centre();
-  part.ray_mesh = RayMeshOf(mesh, part.centre);
-  if (mode == model::RenderMode::kPhong) return std::nullopt;
-  part.edges = EdgesOf(mesh);
-  part.feature_lines = LinesAlong(FeatureEdges(part.edges), mesh);
+  PartLines lines;
+  lines.edges = EdgesOf(mesh);
+  lines.feature_lines = LinesAlong(FeatureEdges(lines.edges), mesh);
   // A region's outlines are all there is to see of it.
-  if (std::holds_alternative<model::RegionPtr>(part.element->geometry)) return std::nullopt;
+  if (std::holds_alternative<model::RegionPtr>(part.element->geometry)) return lines;
   const auto* surface = std::get_if<model::SurfacePtr>(&part.element->geometry);
-  if (tolerance.facets_per_turn > 0) {
-    part.form_lines = LinesAlong(FacetEdges(mesh, part.edges), mesh);
+  if (part.element->tolerance.facets_per_turn > 0) {
+    lines.form_lines = LinesAlong(FacetEdges(mesh, lines.edges), mesh);
   } else if (surface && !IsFlat(mesh)) {
-    part.form_lines = IsoLines(**surface);
+    lines.form_lines = IsoLines(**surface);
   }
-  return std::nullopt;
+  return lines;
 }
 
-std::optional<Error> CompleteParts(Parts& parts, const geom::Frame& directions,
-                                   const model::RenderRequest& request, int threads) {
-  const std::size_t count = parts.parts.size();
-  ParallelFor(count, threads, [&](std::size_t i) {
-    parts.parts[i].box = model::BoundingBox(*parts.parts[i].element);
+// Of each part; empty in shaded pictures, whose surfaces have no lines.
+std::vector<PartLines> LinesOf(const Parts& parts, model::RenderMode mode, int threads) {
+  std::vector<PartLines> lines(parts.parts.size());
+  if (mode == model::RenderMode::kPhong) return lines;
+  ParallelFor(parts.parts.size(), threads, [&](std::size_t i) {
+    if (parts.parts[i].ray_mesh) lines[i] = LinesOf(parts.parts[i]);
   });
-  const double pixel_m = RoughPixel(parts, directions, request);
-  std::vector<std::optional<Error>> errors(count);
-  ParallelFor(count, threads, [&](std::size_t i) {
-    errors[i] = CompletePart(parts.parts[i], pixel_m, request.view.mode);
-  });
-  for (const std::optional<Error>& error : errors) {
-    if (error) return error;
-  }
-  return std::nullopt;
+  return lines;
 }
 
 // Around what is drawn, along the view's axes.
@@ -192,6 +130,7 @@ struct PlacementDrawer {
   Scene& scene;
   model::RenderMode mode;
   const Part& part;
+  const PartLines& lines;
   const Placement& placement;
   Affine picture_from_part;
 
@@ -203,8 +142,8 @@ struct PlacementDrawer {
     stroke.width_px = static_cast<float>(std::max(placement.weight, 1));
     return stroke;
   }
-  void AddLines(const std::vector<std::vector<Vec3>>& lines, const Stroke& like) {
-    for (const auto& line : lines) {
+  void AddLines(const std::vector<std::vector<Vec3>>& polylines, const Stroke& like) {
+    for (const auto& line : polylines) {
       Stroke& stroke = scene.strokes.emplace_back(like);
       for (const Vec3& p : line) stroke.vertices.push_back(InPicture(p));
     }
@@ -221,7 +160,7 @@ struct PlacementDrawer {
   }
   void AddOutlines() {
     const geom::Mesh& mesh = part.facets.mesh;
-    const std::vector<MeshEdge> edges = OutlineEdges(mesh, part.edges, picture_from_part);
+    const std::vector<MeshEdge> edges = OutlineEdges(mesh, lines.edges, picture_from_part);
     for (const EdgeLine& line : JoinEdges(edges)) {
       Stroke stroke = Empty();
       for (const std::uint32_t vertex : line.vertices) {
@@ -251,14 +190,14 @@ struct PlacementDrawer {
     Affine picture_from_mesh = picture_from_part;
     picture_from_mesh.translation() = picture_from_part * part.centre;
     scene.surfaces.push_back({part.ray_mesh, picture_from_mesh.affine().cast<float>()});
-    scene.surface_colours.push_back(ShadeOf(SurfaceColour(placement.colour)));
+    scene.surface_colours.push_back(ShadeOf(SurfaceColour(placement.colour, placement.material)));
     if (mode == model::RenderMode::kPhong) return;
     Stroke form = Empty();
     form.opacity = kIsoOpacity;
     form.linestyle = 0;
     form.width_px = 1;
-    AddLines(part.form_lines, form);
-    AddLines(part.feature_lines, Empty());
+    AddLines(lines.form_lines, form);
+    AddLines(lines.feature_lines, Empty());
     if (mode == model::RenderMode::kHidden) AddOutlines();
   }
   void AddAll() {
@@ -268,18 +207,129 @@ struct PlacementDrawer {
   }
 };
 
-}  // namespace
+// A part as the eye sees it where it is placed: in picture space.
+Part SeenBy(const Eye& eye, const Part& part, const Affine& world_from_part) {
+  Part seen;
+  seen.element = part.element;
+  seen.facets = eye.InPicture(part.facets, world_from_part);
+  if (!seen.facets.mesh.triangles.empty()) {
+    seen.ray_mesh = RayMeshOf(seen.facets.mesh, Vec3::Zero());
+  }
+  return seen;
+}
+PartLines SeenBy(const Eye& eye, const PartLines& lines, const Part& seen,
+                 const Affine& world_from_part) {
+  return {EdgesOf(seen.facets.mesh), eye.InPicture(lines.feature_lines, world_from_part),
+          eye.InPicture(lines.form_lines, world_from_part)};
+}
 
-Result<Scene> SceneOf(const model::RenderRequest& request, int threads) {
-  const model::View& view = request.view;
-  const geom::Frame directions =
-      model::FrameOf(view.direction.empty() ? std::string_view("iso") : view.direction);
-  Parts parts = VisibleParts(request.model);
-  if (auto error = CompleteParts(parts, directions, request, threads)) {
+void AddTo(geom::Box& box, const Facets& facets) {
+  for (const auto& triangle : facets.mesh.triangles) {
+    for (const std::uint32_t corner : triangle) box.Add(facets.mesh.positions[corner]);
+  }
+  for (const auto& stroke : facets.strokes) {
+    for (const Vec3& p : stroke) box.Add(p);
+  }
+  for (const Vec3& p : facets.points) box.Add(p);
+}
+
+// The photograph's picture, if it is at hand.
+std::shared_ptr<const Picture> PictureOf(const model::Photograph& photograph) {
+  if (!photograph.picture) return nullptr;
+  const auto pixels = photograph.picture->Pixels();
+  if (!pixels) return nullptr;
+  return std::make_shared<const Picture>(
+      Picture{(*pixels)->width_px, (*pixels)->height_px, (*pixels)->rgb});
+}
+
+// Through the camera of a photograph.
+Result<Scene> SceneThrough(const model::Photograph& photograph, const model::RenderRequest& request,
+                           int threads) {
+  const camera::Camera& camera = photograph.estimate->camera;
+  Parts parts = VisibleParts(request.model, threads);
+  const geom::Box world = BoxInWorld(parts);
+  const double middle_m =
+      world.empty() ? 1 : std::max(0.1, camera::Project(camera, world.centre()).depth_m);
+  Scene scene;
+  const Eye& eye =
+      scene.eye.emplace(camera, photograph.frame, request.width_px, request.height_px, middle_m);
+  scene.camera.width_px = request.width_px;
+  scene.camera.height_px = request.height_px;
+  if (request.view.photo) scene.backdrop = PictureOf(photograph);
+  const double pixel_m = FinestPixel_m(world, camera, photograph.frame);
+  if (auto error = MakeFacets(parts, kChord_px * pixel_m, threads)) {
     return tl::unexpected(*std::move(error));
   }
+  const model::RenderMode mode = request.view.mode;
+  const std::vector<PartLines> lines = LinesOf(parts, mode, threads);
+  geom::Box box;
+  for (const Placement& placement : parts.placements) {
+    const Affine& world_from_part = placement.world_from_part;
+    const Part seen = SeenBy(eye, parts.parts[placement.part], world_from_part);
+    const bool has_lines = mode != model::RenderMode::kPhong;
+    const PartLines seen_lines =
+        has_lines ? SeenBy(eye, lines[placement.part], seen, world_from_part) : PartLines{};
+    AddTo(box, seen.facets);
+    PlacementDrawer{scene, mode, seen, seen_lines, placement, Affine::Identity()}.AddAll();
+  }
+  if (!box.empty()) {
+    scene.nearest = static_cast<float>(box.max.z());
+    scene.farthest = static_cast<float>(box.min.z());
+  }
+  return scene;
+}
+
+// A photograph that is shown as a plane at its frame.
+struct ShownPhotograph {
+  std::array<Vec3, 4> corners;
+  PicturePlane plane;
+};
+std::vector<ShownPhotograph> ShownPhotographs(const model::Model& model, const geom::Box& built) {
+  std::vector<ShownPhotograph> shown;
+  model.ForEach([&](const model::ElementPtr& element) {
+    const auto* photograph = std::get_if<model::PhotographPtr>(&element->geometry);
+    if (!photograph || !HasCamera(**photograph)) return;
+    auto picture = PictureOf(**photograph);
+    if (!picture) return;
+    const double depth_m = FrameDepth_m(**photograph, built);
+    shown.push_back({FrameCorners(**photograph, depth_m),
+                     PlaneAtFrame(**photograph, depth_m, std::move(picture))});
+  });
+  return shown;
+}
+
+void AddPhotograph(const ShownPhotograph& shown, const Affine& picture_from_world, Scene* scene) {
+  geom::Mesh mesh;
+  for (const Vec3& corner : shown.corners) {
+    mesh.positions.push_back(corner - shown.corners[0]);
+    mesh.normals.push_back(shown.plane.normal);
+  }
+  mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+  Affine picture_from_mesh = picture_from_world;
+  picture_from_mesh.translation() = picture_from_world * shown.corners[0];
+  scene->surfaces.push_back(
+      {RayMeshOf(mesh, Vec3::Zero()), picture_from_mesh.affine().cast<float>()});
+  scene->surface_colours.push_back(Shade::Ones());
+  scene->planes.push_back(shown.plane);
+}
+
+// In a parallel projection.
+Result<Scene> SceneAlong(const model::RenderRequest& request, int threads) {
+  const model::View& view = request.view;
+  const geom::Frame directions = model::FrameOf(view, "iso");
+  Parts parts = VisibleParts(request.model, threads);
+  const double pixel_m = RoughPixel(parts, directions, request);
+  if (auto error = MakeFacets(parts, kChord_px * pixel_m, threads)) {
+    return tl::unexpected(*std::move(error));
+  }
+  const std::vector<PartLines> lines = LinesOf(parts, view.mode, threads);
   Scene scene;
-  const geom::Box box = BoxInView(parts, directions);
+  geom::Box box = BoxInView(parts, directions);
+  std::vector<ShownPhotograph> photographs;
+  if (view.photo) photographs = ShownPhotographs(request.model, BoxInWorld(parts));
+  for (const ShownPhotograph& shown : photographs) {
+    for (const Vec3& corner : shown.corners) box.Add(directions.ToLocal(corner));
+  }
   scene.camera = FitCamera(directions, box, request.width_px, request.height_px);
   if (!box.empty()) {
     const double half_depth = 0.5 * (box.max.z() - box.min.z()) / scene.camera.pixel_m;
@@ -288,11 +338,50 @@ Result<Scene> SceneOf(const model::RenderRequest& request, int threads) {
   }
   const Affine picture_from_world = scene.camera.picture_from_world();
   for (const Placement& placement : parts.placements) {
-    PlacementDrawer{scene, view.mode, parts.parts[placement.part], placement,
+    PlacementDrawer{scene,
+                    view.mode,
+                    parts.parts[placement.part],
+                    lines[placement.part],
+                    placement,
                     picture_from_world * placement.world_from_part}
         .AddAll();
   }
+  for (const ShownPhotograph& shown : photographs) {
+    AddPhotograph(shown, picture_from_world, &scene);
+  }
   return scene;
+}
+
+}  // namespace
+
+Result<Scene> SceneOf(const model::RenderRequest& request, int threads) {
+  const model::ElementPtr& through = request.view.camera;
+  Result<Scene> scene =
+      through ? SceneThrough(*std::get<model::PhotographPtr>(through->geometry), request, threads)
+              : SceneAlong(request, threads);
+  if (!scene || !request.view.textured) return scene;
+  auto planes = OrthophotoPlanes(request.model, threads);
+  if (!planes) return tl::unexpected(planes.error());
+  scene->planes.insert(scene->planes.end(), planes->begin(), planes->end());
+  return scene;
+}
+
+Vec3 Scene::InWorld(const Eigen::Vector3f& in_picture) const {
+  if (eye) return eye->InWorld(in_picture.cast<double>());
+  return camera.picture_from_world().inverse() * in_picture.cast<double>();
+}
+
+Vec3 Scene::DirectionInWorld(const Eigen::Vector3f& direction) const {
+  if (eye) return eye->InWorldAlong(direction.cast<double>());
+  return camera.frame.ToWorld(direction.cast<double>()) - camera.frame.origin;
+}
+
+Eigen::Vector3f Scene::TowardsViewer(float x, float y) const {
+  return eye ? eye->TowardsViewer(x, y) : Eigen::Vector3f(Eigen::Vector3f::UnitZ());
+}
+
+Eigen::Vector3f Scene::Moving(const Eigen::Vector3f& from, const Eigen::Vector3f& direction) const {
+  return eye ? eye->Moving(from, direction) : direction;
 }
 
 }  // namespace tranos::output

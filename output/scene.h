@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <memory>
+#include <optional>
 #include <vector>
 
 #include "model/edit.h"
+#include "output/eye.h"
+#include "output/picture_plane.h"
 #include "output/ray_scene.h"
 #include "output/result.h"
 #include "output/view.h"
 
 namespace tranos::output {
-
-using Shade = Eigen::Vector3f;  // red, green, blue of the screen, 0 to 1
 
 // A line of a drawing in picture space (output/view.h).
 struct Stroke {
@@ -30,7 +32,16 @@ struct Scene {
   std::vector<RaySurface> surfaces;    // in the order of elements
   std::vector<Shade> surface_colours;  // of each surface
   std::vector<Stroke> strokes;         // later ones over earlier ones
-  float nearest = 0, farthest = 0;     // z of what is nearest to the viewer, and farthest
+  std::optional<Eye> eye;            // the viewer, where the view is through a photograph's camera
+  std::vector<PicturePlane> planes;  // what faces that lie in them show
+  std::shared_ptr<const Picture> backdrop;  // the photograph, seen through the eye behind all
+  float nearest = 0, farthest = 0;          // z of what is nearest to the viewer, and farthest
+
+  // Of picture space; directions are given along the viewer's axes.
+  geom::Vec3 InWorld(const Eigen::Vector3f& in_picture) const;
+  geom::Vec3 DirectionInWorld(const Eigen::Vector3f& direction) const;
+  Eigen::Vector3f TowardsViewer(float x, float y) const;
+  Eigen::Vector3f Moving(const Eigen::Vector3f& from, const Eigen::Vector3f& direction) const;
 };
 
 // Everything on visible levels, from the request's view. In shaded pictures surfaces have no lines.

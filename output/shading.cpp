@@ -34,7 +34,7 @@ Shader::Shader(const Scene& scene, const RayScene& rays, bool shadows)
   }
 }
 
-Vector3f Shader::NormalAt(const HitPacket& hits, unsigned i) const {
+Vector3f Shader::NormalAt(const HitPacket& hits, unsigned i, const Vector3f& towards_viewer) const {
   const std::uint32_t index = hits.surface[i];
   const RayMesh& mesh = *scene_.surfaces[index].mesh;
   const auto& corners = mesh.triangles[hits.triangle[i]];
@@ -45,24 +45,39 @@ Vector3f Shader::NormalAt(const HitPacket& hits, unsigned i) const {
   const Vector3f blended = (1 - u - v) * at(0) + u * at(1) + v * at(2);
   const Vector3f normal = picture_from_normal_[index] * blended;
   const float length = std::max(normal.norm(), 1e-20f);
-  return normal / (normal.z() < 0 ? -length : length);
+  return normal / (normal.dot(towards_viewer) < 0 ? -length : length);
+}
+
+Shade Shader::ColourOf(std::uint32_t surface, const Vector3f& place, const Vector3f& normal,
+                       float light) const {
+  if (!scene_.planes.empty()) {
+    const geom::Vec3 point = scene_.InWorld(place);
+    const geom::Vec3 face_normal = scene_.DirectionInWorld(normal);
+    for (const PicturePlane& plane : scene_.planes) {
+      // A photograph has its own light.
+      if (const auto shade = plane.At(point, face_normal)) return *shade;
+    }
+  }
+  return scene_.surface_colours[surface] * light;
 }
 
 void Shader::Apply(const RayPacket& rays, const HitPacket& hits, ShadePacket& shades) const {
   std::array<Vector3f, kPacket> normals;
-  RayPacket from;
+  RayPacket from, to_light;
   LanePacket lit{};
   for (unsigned i = 0; i < kPacket; ++i) {
     if (hits.surface[i] == kNothing) continue;
-    normals[i] = NormalAt(hits, i);
+    normals[i] = NormalAt(hits, i, scene_.TowardsViewer(rays.x[i], rays.y[i]));
     lit[i] = normals[i].dot(kKey) > 0;
     if (!shadows_) continue;
     // A little off the facet, which lies a little inside the surface that it stands for.
-    from.x[i] = rays.x[i] + kShadowOffset_px * normals[i].x();
-    from.y[i] = rays.y[i] + kShadowOffset_px * normals[i].y();
-    from.z[i] = hits.z[i] + kShadowOffset_px * normals[i].z();
+    const Vector3f place(rays.x[i], rays.y[i], hits.z[i]);
+    const Vector3f start = place + kShadowOffset_px * scene_.Moving(place, normals[i]);
+    from.x[i] = start.x(), from.y[i] = start.y(), from.z[i] = start.z();
+    const Vector3f way = scene_.Moving(start, kKey);
+    to_light.x[i] = way.x(), to_light.y[i] = way.y(), to_light.z[i] = way.z();
   }
-  if (shadows_) rays_.DropOccluded(from, kKey, lit);
+  if (shadows_) rays_.DropOccluded(from, to_light, lit);
   for (unsigned i = 0; i < kPacket; ++i) {
     if (hits.surface[i] == kNothing) continue;
     const float towards_key = std::max(0.0f, normals[i].dot(kKey));
@@ -70,7 +85,8 @@ void Shader::Apply(const RayPacket& rays, const HitPacket& hits, ShadePacket& sh
     const float gloss = lit[i] ? kGloss * PowerOf32(std::max(0.0f, normals[i].dot(kHalfway))) : 0;
     const float fill = std::max(0.0f, normals[i].dot(kFill));
     const float light = kAmbient + kKeyShare * key + kFillShare * fill;
-    shades[i] = scene_.surface_colours[hits.surface[i]] * light + Shade::Constant(gloss);
+    const Vector3f place(rays.x[i], rays.y[i], hits.z[i]);
+    shades[i] = ColourOf(hits.surface[i], place, normals[i], light) + Shade::Constant(gloss);
   }
 }
 

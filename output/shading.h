@@ -21,7 +21,11 @@ class Shader {
 
  private:
   // Unit, on the side that is seen.
-  Eigen::Vector3f NormalAt(const HitPacket& hits, unsigned i) const;
+  Eigen::Vector3f NormalAt(const HitPacket& hits, unsigned i,
+                           const Eigen::Vector3f& towards_viewer) const;
+  // What lies in its plane, as it is; else its own in this light.
+  Shade ColourOf(std::uint32_t surface, const Eigen::Vector3f& place, const Eigen::Vector3f& normal,
+                 float light) const;
 
   const Scene& scene_;
   const RayScene& rays_;

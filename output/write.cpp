@@ -14,11 +14,16 @@ namespace {
 // A format joins by a row.
 struct ModelFormat {
   std::string_view extension;
-  Result<std::string> (*write)(const model::Model&);
+  Result<std::string> (*write)(const model::ExportRequest&, int threads);
 };
 constexpr std::array kModelFormats = {
-    ModelFormat{".glb", [](const model::Model& model) { return GlbOf(model, {}); }},
-    ModelFormat{".stl", StlOf},
+    ModelFormat{".glb",
+                [](const model::ExportRequest& request, int threads) {
+                  return GlbOf(request.model,
+                               {.photographs = request.photographs, .threads = threads});
+                }},
+    ModelFormat{".stl",
+                [](const model::ExportRequest& request, int) { return StlOf(request.model); }},
 };
 struct PictureFormat {
   std::string_view extension;
@@ -54,10 +59,10 @@ Result<const typename Formats::value_type*> FormatOf(const Formats& formats, std
 
 }  // namespace
 
-Result<std::string> ExportOf(const model::Model& model, std::string_view file) {
-  const auto format = FormatOf(kModelFormats, file, "a model");
+Result<std::string> ExportOf(const model::ExportRequest& request, int threads) {
+  const auto format = FormatOf(kModelFormats, request.file, "a model");
   if (!format) return tl::unexpected(format.error());
-  return (*format)->write(model);
+  return (*format)->write(request, threads);
 }
 
 Result<std::string> PictureFileOf(const model::RenderRequest& request, int threads) {

@@ -62,6 +62,7 @@ class Skeleton {
   void Part(const model::PhotographPtr&) {}
   void Part(const model::TracePtr&) {}
   void Part(const model::FacadePtr& facade) { Frame(facade->plane, 1); }
+  void Part(const model::OrthophotoPtr& made) { Frame(made->plane, made->pixel_m); }
   void Part(const geom::Line& line) {
     points_.push_back(line.start);
     points_.push_back(line.end);

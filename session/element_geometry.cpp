@@ -96,6 +96,11 @@ class GeometryWriter {
     out_->Key("facade").String(facade->name);
     Frame(facade->plane, out_);
   }
+  void operator()(const model::OrthophotoPtr& made) {
+    out_->Key("facade").String(made->facade).Key("pixel_m").Length(made->pixel_m);
+    out_->Key("width_px").Integer(made->size_px.x()).Key("height_px").Integer(made->size_px.y());
+    Frame(made->plane, out_);
+  }
   void operator()(const geom::Line& line) {
     out_->Key("start").Point(line.start).Key("end").Point(line.end);
   }

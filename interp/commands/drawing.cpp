@@ -111,8 +111,7 @@ std::vector<model::Moved> MovedFacade(const std::string& name, const camera::Fac
 tl::expected<ElementPtr, CommandError> CameraMeant(const State& state, const Answers& answers) {
   auto photograph = PhotographMeant(state, answers.Has("photo") ? answers : Answers{});
   if (!photograph) return photograph;
-  const auto& estimate = PhotographOf(**photograph).estimate;
-  if (!estimate || !estimate->complete()) return Fail(NoCameraYet(**photograph));
+  if (!model::HasCamera(PhotographOf(**photograph))) return Fail(NoCameraYet(**photograph));
   return photograph;
 }
 

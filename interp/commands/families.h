@@ -28,11 +28,13 @@ std::span<const Command> PlaneCommands();
 std::span<const Command> ViewCommands();        // set view, view, level
 std::span<const Command> OutputCommands();      // render, export, print
 std::span<const Command> PhotographCommands();  // attach, cameras
+std::span<const Command> RenderPhotoCommands();
 std::span<const Command> PriorCommands();
 std::span<const Command> TraceCommands();
 std::span<const Command> DetectCommands();
 std::span<const Command> CalibrateCommands();
 std::span<const Command> FacadeCommands();  // set, construct, recover
+std::span<const Command> OrthophotoCommands();
 std::span<const Command> HistoryCommands();
 // Those that the language names and that are not carried out yet.
 std::span<const Command> LaterCommands();

@@ -52,6 +52,7 @@ class Outliner {
   void operator()(const model::PhotographPtr&) const {}
   void operator()(const model::TracePtr&) const {}
   void operator()(const model::FacadePtr&) const {}
+  void operator()(const model::OrthophotoPtr&) const {}
 
  private:
   Vec2 Seen(const Vec3& p) const { return plane_.ToLocal(world_from_leaf_ * p).head<2>(); }

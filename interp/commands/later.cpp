@@ -19,12 +19,9 @@ constexpr Later Row(std::string_view words, std::string_view family, std::string
 
 constexpr Later kLater[] = {
     Row("place dimension", "place", "A measure between two points, with its number."),
-    Row("construct orthophoto", "construct", "The photograph of a facade, seen squarely."),
     Row("construct section", "construct", "A drawing of the model cut by a plane."),
     Row("attach drawing", "photograph",
         "Brings in a drawing as a reference: DXF, or an image with a scale."),
-    Row("render photo", "photograph", "Makes a photograph of the model as a camera sees it."),
-    Row("view camera", "view", "The view through a photograph's camera."),
     Row("plot", "output", "Draws a sheet at a scale."),
     Row("highlight", "output", "Shows elements in a colour that stands out, for debugging."),
 };

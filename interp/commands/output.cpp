@@ -61,6 +61,17 @@ CommandResult Render(const State& state, const Answers& answers) {
            .where = {Where::kKey, 0, "size"}});
     }
     std::tie(request.width_px, request.height_px) = *size_px;
+  } else if (request.view.camera) {
+    const Eigen::Vector2i size_px = PhotographOf(*request.view.camera).frame.size_px;
+    if (size_px.maxCoeff() > kWidestPicture_px) {
+      return Fail(
+          {.code = Code::kOutOfRange,
+           .message = fmt::format("a picture is 1 to {} pixels wide and high, and the camera's "
+                                  "frame is larger",
+                                  kWidestPicture_px),
+           .help = "render size=1280,960"});
+    }
+    request.width_px = size_px.x(), request.height_px = size_px.y();
   }
   Fired fired;
   fired.edit.outputs.emplace_back(std::move(request));
@@ -93,9 +104,9 @@ CommandResult ExportCamera(const State& state, const Answers& answers, model::Ca
   const auto found = PhotographAt(state, answers, "camera");
   if (!found) return Fail(found.error());
   const model::Photograph& photograph = PhotographOf(**found);
-  if (!photograph.estimate || !photograph.estimate->complete()) return Fail(NoCameraYet(**found));
+  if (!model::HasCamera(photograph)) return Fail(NoCameraYet(**found));
   model::CameraRequest request{*found, nullptr, format, answers.Text("file")};
-  const bool is_stated = photograph.file.empty();
+  const bool is_stated = model::IsStatedCamera(photograph);
   if (is_stated && format == model::CameraFormat::kFspyProject) {
     return Fail({.code = Code::kNoPhotograph,
                  .message = fmt::format("an fSpy project holds a photograph, and {} was stated "
@@ -139,7 +150,8 @@ CommandResult Export(const State& state, const Answers& answers) {
                  .where = AtKey("camera")});
   }
   Fired fired;
-  fired.edit.outputs.emplace_back(model::ExportRequest{state.model, file});
+  fired.edit.outputs.emplace_back(
+      model::ExportRequest{state.model, file, state.drawing.view->photo});
   return fired;
 }
 

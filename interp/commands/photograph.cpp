@@ -173,12 +173,35 @@ std::optional<CommandError> TakeCamera(const camera::FramedCamera& given, const 
   return std::nullopt;
 }
 
+// The picture that is attached: in a file, or one made by `render photo`.
+tl::expected<PhotographFile, CommandError> PictureMeant(const State& state, const Answers& answers,
+                                                        const Surroundings& surroundings) {
+  const std::string file = answers.Text("file");
+  if (!file.empty() && answers.words.empty()) return ReadPhotograph(file, surroundings);
+  if (file.empty() == answers.words.empty()) {
+    return Fail({.code = Code::kMissingValue,
+                 .message = "which photograph: a file, or one made by `render photo`?",
+                 .help = "attach photo \"fire_1917.png\" as fire"});
+  }
+  const auto made = PhotographMeant(state, answers);
+  if (!made) return Fail(made.error());
+  const model::Photograph& photograph = PhotographOf(**made);
+  if (!model::IsStatedCamera(photograph)) {
+    return PhotographFile{photograph.content, photograph.frame.size_px, photograph.picture};
+  }
+  return Fail({.code = Code::kNoPhotograph,
+               .message = fmt::format("{} is a stated camera: there is no photograph of it",
+                                      NameForMessage(**made)),
+               .help = "`render photo camera=… as p` takes one"});
+}
+
 CommandResult AttachPhoto(const State& state, const Answers& answers,
                           const Surroundings& surroundings) {
   const std::string file = answers.Text("file");
-  const auto read = ReadPhotograph(file, surroundings);
+  const auto read = PictureMeant(state, answers, surroundings);
   if (!read) return Fail(read.error());
-  model::Photograph photograph{.file = file, .content = read->content, .picture = read->picture};
+  model::Photograph photograph{
+      .file = file, .content = read->content, .picture = read->picture, .attached = true};
   photograph.frame.size_px = read->size_px;
   if (const Value* format = answers.Find("format")) {
     const auto size_mm = FormatOf(*format);
@@ -285,7 +308,7 @@ CommandResult StepCamera(const State& state, const Answers& answers) {
   const auto found = PhotographMeant(state, answers);
   if (!found) return Fail(found.error());
   model::Photograph changed = PhotographOf(**found);
-  if (!changed.estimate || !changed.estimate->complete()) return Fail(NoCameraYet(**found));
+  if (!model::HasCamera(changed)) return Fail(NoCameraYet(**found));
   auto estimate = std::make_shared<camera::Estimate>();
   const camera::Camera before = changed.estimate->camera;
   estimate->camera = before;
@@ -315,13 +338,8 @@ CommandResult StepCamera(const State& state, const Answers& answers) {
 constexpr Key kPhotoKey = {"photo", Type::kElement,
                            "the photograph; the one last attached or set without"};
 constexpr Key kAttachKeys[] = {
-    {"file",
-     Type::kString,
-     "the photograph: PNG, JPEG or TIFF, or a project of fSpy",
-     {},
-     {},
-     -1,
-     true},
+    {"file", Type::kString,
+     "the photograph: PNG, JPEG or TIFF, or a project of fSpy; or the name of one that was made"},
     {"camera", Type::kString,
      "a file with its camera: the JSON that fSpy exports, a project, or what `export exact` wrote; "
      "that of the project without"},
@@ -373,7 +391,11 @@ constexpr Example kAttachExamples[] = {
     {"attach photo \"facade.png\" camera=\"facade.camera.json\" as hall",
      "hall.skew within 89deg +- 1e-9deg"},
     {"attach photo \"facade.png\" camera=\"facade.png\"", "E0911"},
-    {"attach photo \"facade.txt\"", "E0701"}};
+    {"attach photo \"facade.txt\"", "E0701"},
+    {"place block xy=0,0,0 dl=8,6\n" TRANOS_CAMERA
+     "render photo camera=paper seed=1 as p; attach photo p format=36mm,24mm as fire",
+     "fire.width == 1600px"},
+    {TRANOS_CAMERA "attach photo paper", "E0901"}};
 constexpr Example kPlaceCameraExamples[] = {
     {TRANOS_CAMERA, "paper.focal == 35mm"},
     {"place camera f=0mm format=36mm,24mm size=1600,1067 xy=0,0,0", "E0212"}};
@@ -395,9 +417,10 @@ constexpr Example kStepExamples[] = {
 constexpr Command kCommands[] = {
     {.words = "attach photo",
      .family = "photograph",
-     .summary = "Brings in a photograph with the format of its negative or sensor, and the camera "
-                "that another program found.",
+     .summary = "Brings in a photograph, from a file or made by `render photo`, with the format of "
+                "its negative or sensor, and the camera that another program found.",
      .keys = kAttachKeys,
+     .asks = "photograph",
      .string_key = "file",
      .examples = kAttachExamples,
      .execute_with = AttachPhoto},

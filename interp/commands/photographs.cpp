@@ -42,7 +42,7 @@ tl::expected<ElementPtr, CommandError> PhotographAt(const model::State& state,
     return Fail({.code = Code::kWrongElement,
                  .message = fmt::format("`{}=` is a photograph or camera, and this is {}", key,
                                         NameForMessage(*given->element())),
-                 .where = {Where::kKey, 0, key}});
+                 .where = AtKey(key)});
   }
   if (ElementPtr active = state.model.Current(state.drawing.photograph)) return active;
   return Fail({.code = Code::kNoPhotograph,
@@ -69,7 +69,7 @@ ElementPtr WithPhotograph(const model::Element& element, model::Photograph photo
 
 tl::expected<camera::PhotoPtr, CommandError> PixelsOf(const model::Element& photograph) {
   const model::Photograph& taken = PhotographOf(photograph);
-  if (taken.file.empty()) {
+  if (model::IsStatedCamera(taken)) {
     return Fail({.code = Code::kNoPhotograph,
                  .message = fmt::format("{} is a stated camera: there is no photograph of it",
                                         NameForMessage(photograph)),

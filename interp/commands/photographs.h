@@ -10,8 +10,8 @@ namespace tranos::interp {
 inline constexpr std::string_view kMainFacade = "main";
 inline constexpr double kDegree = geom::kPi / 180;
 
-// The photograph or camera that a statement means: by its name in a bare word, by photo=, or the
-// one last attached or set.
+// The photograph or camera that a statement means: by its name in a bare word, by photo= (or the
+// key with this name), or the one last attached or set.
 tl::expected<model::ElementPtr, CommandError> PhotographMeant(const model::State& state,
                                                               const Answers& answers);
 // The photograph or camera that a key gives, or else the one last attached or set.

@@ -119,7 +119,7 @@ CommandResult StatePrior(const State& state, const Answers& answers,
   const auto found = PhotographMeant(state, answers);
   if (!found) return Fail(found.error());
   model::Photograph changed = PhotographOf(**found);
-  if (changed.file.empty()) {
+  if (!changed.attached) {
     return Fail({.code = Code::kWrongElement,
                  .message = fmt::format("{} is stated and not to be found, so that nothing is "
                                         "assumed of it",

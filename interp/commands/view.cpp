@@ -6,6 +6,7 @@
 
 #include "interp/commands/families.h"
 #include "interp/commands/firing.h"
+#include "interp/commands/photographs.h"
 
 namespace tranos::interp {
 
@@ -15,7 +16,7 @@ using model::State;
 namespace {
 
 constexpr std::string_view kModes = "wireframe|hidden|phong";
-constexpr std::string_view kLaterStyles = "textured|evidence|sky|photo";
+constexpr std::string_view kLaterStyles = "evidence|sky";
 
 CommandError WrongWords(std::string message, std::string help) {
   return {.code = Code::kWrongWords, .message = std::move(message), .help = std::move(help)};
@@ -26,12 +27,14 @@ CommandResult SetView(const State& state, const Answers& answers) {
   model::View view = *state.drawing.view;
   view.antialias = answers.HasWord("antialias");
   view.shadows = answers.HasWord("shadows");
+  view.textured = answers.HasWord("textured");
+  view.photo = answers.HasWord("photo");
   int modes = 0;
   for (const std::string& word : answers.words) {
     if (HasWord(kLaterStyles, word)) {
       return Fail({.code = Code::kNotYet,
                    .message = fmt::format("`set view {}` is not there yet", word),
-                   .help = "wireframe, hidden, phong, antialias, shadows"});
+                   .help = "wireframe, hidden, phong, textured, antialias, shadows, photo"});
     }
     modes += HasWord(kModes, word) ? 1 : 0;
   }
@@ -41,7 +44,7 @@ CommandResult SetView(const State& state, const Answers& answers) {
   }
   if (answers.HasWord("wireframe")) view.mode = RenderMode::kWireframe;
   if (answers.HasWord("hidden")) view.mode = RenderMode::kHidden;
-  if (answers.HasWord("phong")) view.mode = RenderMode::kPhong;
+  if (answers.HasWord("phong") || answers.HasWord("textured")) view.mode = RenderMode::kPhong;
   Fired fired;
   fired.edit.view = view;
   return fired;
@@ -54,9 +57,22 @@ CommandResult TurnView(const State& state, const Answers& answers) {
     return Fail(WrongWords("a view is from one side", "front, right, left, back, top or iso"));
   }
   model::View view = *state.drawing.view;
+  view.camera = nullptr;
   for (const std::string& direction : SplitWords(kDirections)) {
     if (answers.HasWord(direction)) view.direction = direction;
   }
+  Fired fired;
+  fired.edit.view = view;
+  return fired;
+}
+
+CommandResult ViewThroughCamera(const State& state, const Answers& answers) {
+  const auto photograph = PhotographMeant(state, answers);
+  if (!photograph) return Fail(photograph.error());
+  const model::Photograph& taken = PhotographOf(**photograph);
+  if (!model::HasCamera(taken)) return Fail(NoCameraYet(**photograph));
+  model::View view = *state.drawing.view;
+  view.camera = *photograph;
   Fired fired;
   fired.edit.view = view;
   return fired;
@@ -88,6 +104,12 @@ constexpr Key kLevelKeys[] = {{"level", Type::kLabel, "the level's name"}};
 constexpr Example kSetViewExamples[] = {{"set view phong antialias", "true"},
                                         {"set view wireframe phong", "E0412"}};
 constexpr Example kViewExamples[] = {{"view top", "true"}, {"view top front", "E0412"}};
+constexpr Example kViewCameraExamples[] = {
+    {"place slab length=8m width=6m height=5m xy=0,0,0\n"
+     "place camera f=35mm format=36mm,24mm size=360,240 phi=20deg omega=8deg xy=9,-14,2 as paper\n"
+     "view camera paper; set view hidden; render",
+     "true"},
+    {"view camera", "E0901"}};
 constexpr Example kLevelOffExamples[] = {
     {"place point xy=0,0,0; lv=\"roof\"; place point xy=5,0,0; level off roof; choose all\n"
      "move xy=0,0,0 dl=1",
@@ -102,8 +124,10 @@ constexpr Example kLevelOnExamples[] = {
 constexpr Command kCommands[] = {
     {.words = "set view",
      .family = "view",
-     .summary = "How pictures look: as edges, with hidden lines removed, or shaded; smoothed, with "
-                "shadows. What is not named is off; without a mode the one before stays.",
+     .summary = "How pictures look: as edges, with hidden lines removed, or shaded; shaded with "
+                "orthophotos on the faces; smoothed, with shadows; with photographs behind the "
+                "model, where it is seen through their camera, or else as planes at their frames. "
+                "What is not named is off; without a mode the one before stays.",
      .options = "wireframe|hidden|phong|textured|evidence|antialias|shadows|sky|photo",
      .examples = kSetViewExamples,
      .execute = SetView},
@@ -113,6 +137,13 @@ constexpr Command kCommands[] = {
      .options = kDirections,
      .examples = kViewExamples,
      .execute = TurnView},
+    {.words = "view camera",
+     .family = "view",
+     .summary = "Pictures are taken through a camera, skew included, in its frame and, unless a "
+                "size is given, in its pixels. The next `view` ends it.",
+     .asks = "camera",
+     .examples = kViewCameraExamples,
+     .execute = ViewThroughCamera},
     {.words = "level off",
      .family = "view",
      .summary = "Switches levels off: what is on them is neither drawn nor picked.",

@@ -73,6 +73,18 @@ class Validator(harness.ProgramTest):
                 self.assertEqual(ran.status, 0, ran.err)
         self.validate()
 
+    def test_textures(self):
+        """Orthophotos on faces and by themselves, and the photograph at its frame."""
+        goldens = harness.ROOT / "tests/language/photograph"
+        shutil.copy(goldens / "facade.png", self.folder)
+        built = (goldens / "an_orthophoto_reaches_over_what_is_built.trn").read_text(encoding="utf-8").split("choose")[0]
+        alone = (goldens / "an_orthophoto_is_to_scale.trn").read_text(encoding="utf-8")
+        for name, text in {"built": built + "set view photo\n", "alone": alone}.items():
+            self.write(f"{name}.trn", text)
+            ran = self.tranos("run", f"{name}.trn", "-o", f"out/{name}")
+            self.assertEqual(ran.status, 0, ran.err)
+        self.validate()
+
     def test_scripts(self):
         if harness.Options.sanitized:
             self.skipTest("the bytes are those of the build without sanitizers")

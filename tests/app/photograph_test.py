@@ -137,6 +137,64 @@ class Photograph(harness.ProgramTest):
         told = self.compared(SCRIPT, SCRIPT.replace("unknown", "prior aspect = 1 +- 3%\nunknown", 1))
         self.assertNotRegex(told, r"e-1\d mm")
 
+    def test_photograph_of_the_model(self):
+        """The picture, the truth beside it, and a journal that needs neither."""
+        text = (GOLDENS / "a_photograph_of_the_model_is_attached.trn").read_text(encoding="utf-8")
+        text = text.replace("seed=7", 'seed=7 file="old/p.png"')
+        ran = self.run_script(text, "--journal", "journal.jsonl", "--threads", "1")
+        self.assertEqual(ran.status, 0, ran.err)
+        picture = (self.folder / "out/old/p.png").read_bytes()
+        truth = json.loads((self.folder / "out/old/p.json").read_text())
+        self.assertEqual(struct.unpack(">II", picture[16:24]), (484, 319))
+        self.assertEqual(truth["camera"]["photograph"], "old/p.png")
+        self.assertEqual([truth["camera"][name] for name in ["f_mm", "skew_deg"]], [33.33, 88])
+        self.assertEqual(truth["effects"]["grain"], 0.4)
+        self.assertEqual(truth["seed"], 7)
+        again = self.run_script(text, "--threads", "3")
+        self.assertEqual(again.status, 0, again.err)
+        self.assertEqual(picture, (self.folder / "out/old/p.png").read_bytes())
+        replayed = self.tranos("replay", "journal.jsonl")
+        self.assertEqual(replayed.status, 0, replayed.err)
+        # What was written is a photograph like any other.
+        shutil.copy(self.folder / "out/old/p.png", self.folder / "p.png")
+        read = self.run_script('attach photo "p.png" format=40.5mm,26.7mm as p\nassert p.width == 484px\n')
+        self.assertEqual(read.status, 0, read.err)
+
+    def test_orthophoto(self):
+        """The picture with what is known of it; the model bears it; other views; a journal that needs no pixels."""
+        text = (GOLDENS / "an_orthophoto_reaches_over_what_is_built.trn").read_text(encoding="utf-8").split("choose")[0]
+        text = text.replace("pixel=5cm", 'pixel=5cm file="front.png"')
+        text += "set view textured photo\nrender size=160,120\nview camera hall\nrender size=160,107\n"
+        ran = self.run_script(text, "--journal", "journal.jsonl", "--threads", "1")
+        self.assertEqual(ran.status, 0, ran.err)
+        about = json.loads((self.folder / "out/front.json").read_text())
+        self.assertEqual([about["facade"], about["photograph"], about["size_px"]], ["front", "hall", [200, 150]])
+        self.assertEqual([round(x, 6) for x in about["lower_left_m"]], [0, 0, 0])
+        self.assertEqual(about["hidden"], 0)
+        self.assertLess(about["outside"], 0.1)
+        self.assertEqual((self.folder / "out/front.png").read_bytes()[25], 6)  # red, green, blue, alpha
+        data = (self.folder / "out/script.glb").read_bytes()
+        model = json.loads(data[20:20 + struct.unpack("<I", data[12:16])[0]])
+        self.assertEqual([image["mimeType"] for image in model["images"]], ["image/png"] * 2)
+        borne = [primitive for mesh in model["meshes"] for primitive in mesh["primitives"]
+                 if "TEXCOORD_0" in primitive["attributes"]]
+        self.assertEqual(len(borne), 2)  # the front, and the photograph at its frame
+        before = self.files()
+        again = self.run_script(text, "--threads", "4")
+        self.assertEqual(again.status, 0, again.err)
+        after = self.files()
+        self.assertEqual({name: data for name, data in before.items() if name.startswith("out")},
+                         {name: data for name, data in after.items() if name.startswith("out")})
+        (self.folder / "facade.png").unlink()
+        replayed = self.tranos("replay", "journal.jsonl")
+        self.assertEqual(replayed.status, 0, replayed.err)
+
+    def test_folded_photograph_is_refused(self):
+        ran = self.run_script("place camera f=35mm format=36mm,24mm size=48,32 xy=0,-20,2 as paper\n"
+                              "render photo camera=paper distortion=[-0.3, -0.3] as p\n")
+        self.assertEqual(ran.codes(), ["E0901"])
+        self.assertIn("fold", ran.err)
+
     def test_runs_the_same_from_another_folder(self):
         first = self.report_of(SCRIPT, "--no-output")
         self.write("deep/er/script.trn", SCRIPT)

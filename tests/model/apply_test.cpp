@@ -220,7 +220,7 @@ TEST(Apply, SettingsViewAndLevelsAreReplaced) {
   Settings settings;
   settings.depth_m = 3;
   edit.settings = std::make_shared<const Settings>(settings);
-  edit.view = View{RenderMode::kHidden, true, false, "front"};
+  edit.view = View{.mode = RenderMode::kHidden, .antialias = true, .direction = "front"};
   edit.hidden_levels = std::vector<std::string>{"roof"};
   edit.last_point = geom::Vec3(1, 2, 3);
   const State state = Apply({}, edit).state;

@@ -150,10 +150,10 @@ TEST(Gltf, TooLargeIsAnError) {
 }
 
 TEST(Write, UnknownExtensionListsThoseThereAre) {
-  const auto result = ExportOf(ModelOf({}), "church.dwg");
+  const auto result = ExportOf({ModelOf({}), "church.dwg"}, 1);
   ASSERT_FALSE(result.has_value());
   EXPECT_NE(result.error().message.find(".glb"), std::string::npos);
-  EXPECT_TRUE(ExportOf(ModelOf({}), "a.b/church.GLB").has_value());
+  EXPECT_TRUE(ExportOf({ModelOf({}), "a.b/church.GLB"}, 1).has_value());
 }
 
 }  // namespace

@@ -108,7 +108,7 @@ TEST(Stl, CurvesAndHiddenLevelsAreLeftOut) {
 
 TEST(Stl, TheExtensionChoosesIt) {
   const model::Model model = ModelOf({SlabOf({1, 1, 1})});
-  EXPECT_EQ(*ExportOf(model, "Hall.STL"), *StlOf(model));
+  EXPECT_EQ(*ExportOf({model, "Hall.STL"}, 1), *StlOf(model));
 }
 
 }  // namespace
