@@ -376,8 +376,7 @@ void Binder::BindNaming(NodeId id) {
                  "named again here", "parameters, parts and interfaces have names of their own",
                  {{interface->second, "declared here"}});
   }
-  Scope* owner = scope_;
-  while (!owner->opens_names && !owner->is_turn) owner = owner->parent;
+  Scope* owner = NamesOwner();
   const std::uint32_t name_scope = NamesScope()->name_scope;
   const std::uint32_t index = NameIndex(name_scope, name);
   Symbol symbol{.kind = Symbol::kElementName,

@@ -253,13 +253,12 @@ void Binder::LeaveLoop(const Scope& turn, const std::map<std::string, Span>& giv
     Symbol symbol = found->second;
     symbol.as_list = true;
     symbol.turn_register = -1;
-    for (Scope* scope = scope_; scope && !scope->opens_names; scope = scope->parent) {
-      if (!scope->is_turn) continue;
-      const auto reg = scope->turn_registers.find(name);
-      if (reg != scope->turn_registers.end()) symbol.turn_register = reg->second;
-      break;
+    Scope* owner = NamesOwner();
+    if (owner->is_turn) {
+      const auto reg = owner->turn_registers.find(name);
+      if (reg != owner->turn_registers.end()) symbol.turn_register = reg->second;
     }
-    scope_->symbols[name] = symbol;
+    owner->symbols[name] = symbol;
   }
 }
 

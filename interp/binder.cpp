@@ -155,6 +155,12 @@ Scope* Binder::NamesScope() {
   return scope;
 }
 
+Scope* Binder::NamesOwner() const {
+  Scope* owner = scope_;
+  while (!owner->opens_names && !owner->is_turn) owner = owner->parent;
+  return owner;
+}
+
 std::uint32_t Binder::NameIndex(std::uint32_t scope, const std::string& name) {
   auto& names = program_->scopes[scope].names;
   auto& index = name_indices_[scope];

@@ -160,6 +160,8 @@ class Binder {
   bool CheckName(std::string_view name, Span span);
   std::uint32_t NameIndex(std::uint32_t scope, const std::string& name);
   Scope* NamesScope();
+  // Where a name given here is known: the turn of the nearest loop, or that scope.
+  Scope* NamesOwner() const;
   std::uint32_t NewRegister();
   std::uint32_t NewUnit(std::string name);
   std::uint32_t Emit(Instruction instruction, Span span);

@@ -150,17 +150,19 @@ class Gathering {
     return first;
   }
 
-  // Facades whose place is to be found come first, so that the first of them is y = 0.
+  // Facades whose place is to be found come first. Where no trace has a place in space, the first
+  // of all is y = 0, known or not.
   void NameFacades() {
     std::vector<std::string> given;
-    ForEachPart([&](const ElementPtr& element) {
-      const auto* trace = std::get_if<model::TracePtr>(&element->geometry);
-      if (!trace || (*trace)->facade.empty() || !place_.contains((*trace)->photograph)) return;
-      if (!LiesOnFacade(**trace)) return;
-      const ElementPtr known = model::FindFacade(state_.model, (*trace)->facade);
-      auto& names = known && !IsFirst(model::FacadeOf(*known).plane) ? given : out_.facades;
-      if (std::find(names.begin(), names.end(), (*trace)->facade) == names.end())
-        names.push_back((*trace)->facade);
+    bool world_is_fixed = false;
+    ForEachTrace([&](const Trace& trace) { world_is_fixed |= HasPlace(trace); });
+    ForEachTrace([&](const Trace& trace) {
+      if (trace.facade.empty() || !LiesOnFacade(trace)) return;
+      const ElementPtr known = model::FindFacade(state_.model, trace.facade);
+      const bool is_first = known && IsFirst(model::FacadeOf(*known).plane);
+      auto& names = known && (world_is_fixed || !is_first) ? given : out_.facades;
+      if (std::ranges::find(names, trace.facade) != names.end()) return;
+      names.insert(is_first ? names.begin() : names.end(), trace.facade);
     });
     out_.given_planes.assign(out_.facades.size(), -1);
     for (const std::string& name : given) {
@@ -173,11 +175,24 @@ class Gathering {
     }
   }
 
+  // Of the photographs that are meant.
+  template <class F>
+  void ForEachTrace(F&& f) {
+    ForEachPart([&](const ElementPtr& element) {
+      const auto* trace = std::get_if<model::TracePtr>(&element->geometry);
+      if (trace && place_.contains((*trace)->photograph)) f(**trace);
+    });
+  }
+
+  static bool HasPlace(const Trace& trace) {
+    return trace.kind == Trace::Kind::kEdge || trace.kind == Trace::Kind::kElement ||
+           trace.kind == Trace::Kind::kPoint;
+  }
   static bool LiesOnFacade(const Trace& trace) {
     return trace.kind == Trace::Kind::kRectangle || trace.kind == Trace::Kind::kRatio ||
            trace.kind == Trace::Kind::kCircle;
   }
-  // The plane y = 0, seen from before it: what the first facade is anyway.
+  // The plane y = 0, seen from before it.
   static bool IsFirst(const geom::Frame& plane) {
     return (plane.x - geom::Vec3::UnitX()).norm() < 1e-12 && std::abs(plane.origin.y()) < 1e-12;
   }
