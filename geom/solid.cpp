@@ -87,14 +87,19 @@ Solid Solid::Transformed(const Affine& target_from_source) const {
 }
 
 Result<std::shared_ptr<const TriangleMesh>> Solid::Facets() const {
-  if (!node_->facets) {
+  std::shared_ptr<const TriangleMesh> facets = node_->facets;
+  if (!facets) {
     auto mesh = Evaluate(*this);
     if (!mesh) return tl::unexpected(mesh.error());
-    node_->facets = std::make_shared<const TriangleMesh>(std::move(*mesh));
+    facets = std::make_shared<const TriangleMesh>(std::move(*mesh));
+    node_->facets = facets;
   }
-  return node_->facets;
+  return facets;
 }
 
-Box Solid::Bounds() const { return node_->facets ? BoundingBox(*node_->facets) : node_->bounds; }
+Box Solid::Bounds() const {
+  const std::shared_ptr<const TriangleMesh> facets = node_->facets;
+  return facets ? BoundingBox(*facets) : node_->bounds;
+}
 
 }  // namespace tranos::geom

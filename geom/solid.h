@@ -4,6 +4,7 @@
 // computed from the facets of the meshes it began with, and rounded once.
 #pragma once
 
+#include <atomic>
 #include <memory>
 #include <vector>
 
@@ -51,7 +52,8 @@ struct Solid::Node {
   // For whoever hashes contents: kept here, so that a solid of a hundred thousand steps is hashed
   // in as many. Both zero until then.
   mutable std::array<std::uint64_t, 2> content_hash = {};
-  mutable std::shared_ptr<const TriangleMesh> facets = nullptr;  // once evaluated
+  // Once evaluated. Solids share their parts, and several threads may ask for the same one's.
+  mutable std::atomic<std::shared_ptr<const TriangleMesh>> facets = nullptr;
   ~Node();  // takes deep trees apart without recursion
 };
 

@@ -41,8 +41,16 @@ Machine::Machine(const Program& program, const RunOptions& options, const Host& 
     : program_(program),
       options_(options),
       outer_host_(host),
-      host_{host.read, [this](std::string_view line) { Print(line); }, host.render_photo},
+      host_{host.read, [this](std::string_view line) { Print(line); }},
       budget_(options.limits) {
+  if (host.render_photo) {
+    // What stands is evaluated, and charged, as before all that is written.
+    host_.render_photo = [this](const model::PhotoRequest& request) {
+      request.model.ForEach(
+          [this](const model::ElementPtr& element) { solids_.Force(*element, {}); });
+      return outer_host_.render_photo(request);
+    };
+  }
   if (options.on_progress) budget_.on_progress = &options.on_progress;
   unsolved_ = program.calibrates;
   if (unsolved_) slice_.emplace();
@@ -72,7 +80,7 @@ StageLinks Machine::LinksFor(bool is_script) {
           photographs_.get(),
           &solids_,
           unsolved_ ? &trail_ : nullptr,
-          is_script && slice_ ? &*slice_ : nullptr,
+          is_script ? &slice_ : nullptr,
           stages_made_++,
           &turns_,
           &turn_values_};

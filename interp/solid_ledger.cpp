@@ -73,7 +73,7 @@ void SolidLedger::Force(const model::Element& element, Span fallback) const {
       element, [&](const model::Element& leaf, const geom::Affine&, const model::Attributes&) {
         const auto* solid = std::get_if<model::SolidPtr>(&leaf.geometry);
         if (!solid) return;
-        if (!(*solid)->node().facets) charge_(FacetCount(**solid), fallback);
+        if (!(*solid)->node().facets.load()) charge_(FacetCount(**solid), fallback);
         const auto facets = (*solid)->Facets();
         if (facets && !(*facets)->triangles.empty()) return;
         auto found = made_.find(&Unmoved(**solid).node());

@@ -298,9 +298,9 @@ void Stage::Point(PointKey kind, const Value& values, Span span) {
   }
   const model::Drawing& drawing = state_.drawing;
   const bool follows = kind == PointKey::kDl || kind == PointKey::kDi || kind == PointKey::kDx;
-  if (links_.slice) {
+  if (Slice* const slice = SliceInUse()) {
     point_note_ =
-        links_.slice->NotePoint(kind, values, drawing, follows ? last_note_ : Slice::kNone);
+        slice->NotePoint(kind, values, drawing, follows ? last_note_ : Slice::kNone);
   }
   TakePoint({PlaceOf(kind, values, drawing, drawing.last_point), TermsOf(kind, values)}, span,
             kind == PointKey::kDot);

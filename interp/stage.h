@@ -74,7 +74,8 @@ struct StageLinks {
   PhotographFiles* photographs;
   SolidLedger* solids;
   Trail* trail;          // null where nothing is solved for
-  Slice* slice;          // takes down what came from unknowns; null where nothing is solved for
+  // Takes down what came from unknowns, until they are solved for; null where nothing is.
+  std::optional<Slice>* slice;
   std::uint64_t serial;  // tells the stages of a run apart
   const std::vector<std::uint32_t>* turns;
   const std::vector<const model::Value*>* turn_values;  // the loops' variables
@@ -194,6 +195,9 @@ class Stage {
   void AddChosen(const model::ElementPtr& element, Span span, ChosenOnce* out) const;
   void Fire(Span span);
   void GuardChanges(model::Edit* edit) const;
+  Slice* SliceInUse() const {
+    return links_.slice && *links_.slice ? &**links_.slice : nullptr;
+  }
   void NotePlaced(const Answers& answers, const model::Edit& edit) const;
   void Carry(const Answers& answers, model::Edit* edit, Span span) const;
   void WarnTooLate(const model::Edit& edit) const;

@@ -179,10 +179,12 @@ void Stage::GuardChanges(model::Edit* edit) const {
 
 // Takes down the placing of one element by what was answered alone.
 void Stage::NotePlaced(const Answers& answers, const model::Edit& edit) const {
+  Slice* const slice = SliceInUse();
+  if (!slice) return;
   const Command& row = *active_.row;
   const bool places = row.manner == Manner::kPlaces || row.manner == Manner::kGathers;
   if (!places || !row.execute || row.dots || edit.added.size() != 1) return;
-  links_.slice->NoteFiring({&row, answers, state_, active_.point_notes,
+  slice->NoteFiring({&row, answers, state_, active_.point_notes,
                             static_cast<model::ElementId>(state_.model.entries.size())});
 }
 
@@ -255,7 +257,7 @@ void Stage::Fire(Span span) {
   links_.budget->ChargeElements(fired.edit.added.size(), span);
   TakeIds();
   if (fired.edit.ChangesModel()) history_.push_back(state_);
-  if (links_.slice) NotePlaced(answers, fired.edit);
+  NotePlaced(answers, fired.edit);
   for (std::size_t i = 0; i < fired.edit.added.size(); ++i) {
     if (std::holds_alternative<model::TracePtr>(fired.edit.added[i]->geometry))
       trace_spans_[static_cast<ElementId>(state_.model.entries.size() + i)] = active_.span;

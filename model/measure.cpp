@@ -43,9 +43,10 @@ geom::Box BoxOf(const Shape& shape, const geom::Affine& world_from_shape) {
 // A solid's is of its facets once there are any, and around them before.
 geom::Box BoxOf(const geom::Solid& solid, const geom::Affine& world_from_shape) {
   if (MapsAxesToAxes(world_from_shape)) return Mapped(solid.Bounds(), world_from_shape);
-  if (!solid.node().facets) return solid.Transformed(world_from_shape).Bounds();
+  const std::shared_ptr<const geom::TriangleMesh> facets = solid.node().facets;
+  if (!facets) return solid.Transformed(world_from_shape).Bounds();
   geom::Box box;
-  for (const geom::Vec3& p : solid.node().facets->positions) box.Add(world_from_shape * p);
+  for (const geom::Vec3& p : facets->positions) box.Add(world_from_shape * p);
   return box;
 }
 geom::Box BoxOf(const Point& point, const geom::Affine& world_from_shape) {
