@@ -22,8 +22,9 @@ MAX_PICTURE_BYTES = 200_000
 SHORT_SCRIPT_LINES = 60
 MAX_SCRIPT_LINES = 400  # a whole church; an example is read at a glance and far shorter
 VERBATIM = "cruciform_dome.trn"
-PHOTOGRAPHS = [Path(__file__).parent.parent / "language/photograph" / name
-               for name in ("facade.png", "facade.camera.json", "house.png")]
+ROOT = Path(__file__).parent.parent.parent
+PHOTOGRAPHS = [ROOT / "tests/language/photograph" / name for name in ("facade.png", "facade.camera.json", "house.png")]
+PHOTOGRAPHS.append(ROOT / "docs/images/tranos_photograph.png")
 SECONDS = 60
 
 FENCE = re.compile(r"^```(.*)$")
