@@ -22,14 +22,16 @@ MAX_PICTURE_BYTES = 200_000
 SHORT_SCRIPT_LINES = 60
 MAX_SCRIPT_LINES = 400  # a whole church; an example is read at a glance and far shorter
 VERBATIM = "cruciform_dome.trn"
-PHOTOGRAPHS = [Path(__file__).parent.parent / "language/photograph" / name
-               for name in ("facade.png", "facade.camera.json", "house.png")]
+ROOT = Path(__file__).parent.parent.parent
+PHOTOGRAPHS = [ROOT / "tests/language/photograph" / name for name in ("facade.png", "facade.camera.json", "house.png")]
+PHOTOGRAPHS.append(ROOT / "docs/images/tranos_photograph.png")
 SECONDS = 60
 
 FENCE = re.compile(r"^```(.*)$")
 LINK = re.compile(r"\[[^\]]*\]\(([^)\s]+)\)")
 EXPECT = re.compile(r"#\s*expect(?:\s+(error|warning|failed)\b\s*([EW]\d{4})?)?\s*(?::\s*(.*))?$")
 RUN = re.compile(r"#\s*run:\s*(.*)$")
+HYPOTHESIS = re.compile(r"^hypothesis (\w+)", re.MULTILINE)
 
 
 @dataclass
@@ -220,17 +222,23 @@ def check_readme(root):
 
 
 def check_script(tranos, script):
-    """A script is in the one layout, runs, and checks itself; the paper's stays as it was printed."""
-    _, _, report = run(tranos, script, [])
-    if report["status"] != 0 or report.get("diagnostics"):
-        yield f"{script}: does not run cleanly, status {report['status']}"
+    """A script is in the one layout, says what it announces, and checks itself; each of its hypotheses holds, too. The paper's stays as it was printed."""
+    text = script.read_text(encoding="utf-8")
+    block = Block(script, 1, [], text)
+    expected = expected_of(block)
+    printed, _, report = run(tranos, script, expected.arguments)
+    yield from differences(block, expected, printed, report)
+    for other in HYPOTHESIS.findall(text):
+        _, _, told = run(tranos, script, ["--hypothesis", other])
+        if told["status"] != 0:
+            yield f"{script}: does not hold with the hypothesis {other}, status {told['status']}"
     if script.name == VERBATIM:
         return
     if not report.get("asserts"):
         yield f"{script}: asserts nothing"
     if subprocess.run([tranos, "fmt", "--check", script], capture_output=True, check=False).returncode != 0:
         yield f"{script}: is not in the layout of tranos fmt"
-    if len(script.read_text(encoding="utf-8").splitlines()) > MAX_SCRIPT_LINES:
+    if len(text.splitlines()) > MAX_SCRIPT_LINES:
         yield f"{script}: is longer than {MAX_SCRIPT_LINES} lines"
 
 

@@ -109,8 +109,18 @@ class Scripts(unittest.TestCase):
     def test_a_script_runs_and_checks_itself(self):
         self.assertEqual([], self.found("let a = 1\nassert a == 1\n"))
         self.assertEqual(["asserts nothing"], self.found("let a = 1\n"))
-        self.assertEqual(["does not run cleanly, status 4"], self.found("assert 1 == 2\n"))
-        self.assertIn("does not run cleanly, status 1", self.found("place\n"))
+        self.assertEqual(["this assertion fails"], self.found("assert 1 == 2\n"))
+        self.assertTrue(any(line.startswith("E0202") for line in self.found("place\n")))
+
+    def test_a_script_says_what_it_announces(self):
+        self.assertEqual([], self.found('print "a"  # expect: a\nassert true\n'))
+        self.assertEqual(["printed ['a'], expected []"], self.found('print "a"\nassert true\n'))
+        self.assertEqual([], self.found("unknown a = 1m  # expect warning W0001\nassert true\n"))
+
+    def test_a_script_holds_with_each_of_its_hypotheses(self):
+        text = "hypothesis early {{ let a = 1 }}\nhypothesis late {{ let a = {} }}\nassert a < 3\n"
+        self.assertEqual([], self.found(text.format(2)))
+        self.assertEqual(["does not hold with the hypothesis late, status 4"], self.found(text.format(3)))
 
     def test_a_script_is_in_the_one_layout_and_short(self):
         self.assertEqual(["is not in the layout of tranos fmt"], self.found("assert   true\n"))
