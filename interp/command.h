@@ -117,7 +117,7 @@ struct FoundEdge {
 // What has been read of photographs, or was known beforehand.
 struct PhotographFiles {
   std::map<std::string, PhotographFile> by_path;
-  std::map<model::Hash128, PhotographFile> taken;  // by `render photo`, by content
+  std::map<model::Hash128, PhotographFile> taken;       // by `render photo`, by content
   std::map<std::string, std::vector<FoundEdge>> edges;  // by EdgesKey
 };
 // Of the edges that are found on a photograph where dots deviate by this (0: not stated).

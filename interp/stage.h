@@ -80,8 +80,8 @@ struct StageLinks {
   const std::vector<const model::Value*>* turn_values;  // the loops' variables
 };
 
-// Where a data point lies: by its values, the settings in force, the axes of the view, and the point
-// before.
+// Where a data point lies: by its values, the settings in force, the axes of the view, and the
+// point before.
 geom::Vec3 PlaceOf(PointKey kind, const model::Value& values, const model::Drawing& drawing,
                    const geom::Frame& view, const geom::Vec3& last);
 

@@ -77,7 +77,8 @@ geom::Result<geom::Mesh> FacesOf(const Element& leaf, const geom::Tolerance& tol
     return Faces(**surface, tolerance);
   }
   if (const auto* solid = std::get_if<SolidPtr>(&leaf.geometry)) return Faces(**solid);
-  if (const auto* region = std::get_if<RegionPtr>(&leaf.geometry)) return Faces(**region, tolerance);
+  if (const auto* region = std::get_if<RegionPtr>(&leaf.geometry))
+    return Faces(**region, tolerance);
   return geom::Mesh{};
 }
 

@@ -59,8 +59,8 @@ struct View {
   RenderMode mode = RenderMode::kPhong;
   bool antialias = false;
   bool shadows = false;
-  bool textured = false;        // faces bear the orthophotos that lie in their planes
-  bool photo = false;           // photographs are seen: behind all, or as planes at their frames
+  bool textured = false;  // faces bear the orthophotos that lie in their planes
+  bool photo = false;     // photographs are seen: behind all, or as planes at their frames
   std::string direction;  // "front" … "iso"; "" until `view` is used, which renders as iso
   ElementId camera = kNoElement;  // through which it is seen, in place of a direction
 };

@@ -198,7 +198,8 @@ class Light {
   }
 
   // The light of the sky, or of other faces instead, on each sample's face. The rays of a pixel's
-  // samples together are spread evenly over its sky: on a lattice, turned by chance for each pixel.
+  // samples together are spread evenly over its sky: on a lattice, turned by chance for each pixel,
+  // and to each the opposite one, so that half of them meet what is below the horizon of a wall.
   std::array<float, kPacket> SkyOver(const RayPacket& from,
                                      const std::array<Vector3f, kPacket>& normals,
                                      const LanePacket& met, int side, std::uint64_t seed) const {
@@ -210,10 +211,12 @@ class Light {
         if (!met[i]) continue;
         const int column = static_cast<int>(i) % kBlock, row = static_cast<int>(i) / kBlock;
         const int pixel = row / side * kBlock + column / side;
-        const int k = ray * samples + row % side * side + column % side;
+        const int k = ray / 2 * samples + row % side * side + column % side;
         Draws turn(seed, kPacket + static_cast<std::uint64_t>(pixel));
-        const float u = turn.Uniform() + static_cast<float>(k) / static_cast<float>(samples * kSkyRays);
-        const float v = turn.Uniform() + 0.61803399f * static_cast<float>(k);
+        const float u =
+            turn.Uniform() + static_cast<float>(2 * k) / static_cast<float>(kSkyRays * samples);
+        const float v = turn.Uniform() + 0.61803399f * static_cast<float>(k) +
+                        0.5f * static_cast<float>(ray % 2);
         Put(to_sky, i, Over(normals[i], u - std::floor(u), v - std::floor(v)));
       }
       LanePacket open = met;

@@ -46,7 +46,7 @@ class GlbPictures {
   int threads_;
   GlbTables& tables_;
   Pasting pasting_;
-  std::vector<bool> is_borne_;       // by orthophoto
+  std::vector<bool> is_borne_;        // by orthophoto
   std::optional<geom::Box> visible_;  // around all that is; once asked for
   std::map<std::pair<std::size_t, std::uint32_t>, int> materials_;  // by orthophoto and colour
 };

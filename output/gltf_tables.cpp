@@ -20,8 +20,8 @@ void AppendBytes(std::string& bytes, const std::vector<T>& items) {
 
 std::string BytesOf(const Content& content) {
   std::string bytes = {static_cast<char>('0' + content.mode)};
-  bytes += std::to_string(content.positions.size()) + '/' +
-           std::to_string(content.normals.size()) + '/';
+  bytes +=
+      std::to_string(content.positions.size()) + '/' + std::to_string(content.normals.size()) + '/';
   AppendBytes(bytes, content.positions);
   AppendBytes(bytes, content.normals);
   AppendBytes(bytes, content.indices);
@@ -198,8 +198,7 @@ int GlbTables::AddPictureMaterial(const std::string& name) {
   tinygltf::Material material;
   material.name = name;
   material.doubleSided = true;
-  material.pbrMetallicRoughness.baseColorTexture.index =
-      static_cast<int>(file.textures.size()) - 1;
+  material.pbrMetallicRoughness.baseColorTexture.index = static_cast<int>(file.textures.size()) - 1;
   material.pbrMetallicRoughness.metallicFactor = 0;
   material.pbrMetallicRoughness.roughnessFactor = 1;
   // A photograph has its own light: a viewer that can shows it as it is.

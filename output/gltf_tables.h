@@ -64,10 +64,10 @@ class GlbTables {
   int AddIndices(const std::vector<std::uint32_t>& indices, std::size_t vertex_count);
   void AddBuffer();
 
-  std::vector<float> vectors_;          // first buffer view: all positions and normals
-  std::string indices_;                 // second buffer view
-  std::vector<float> places_;           // third buffer view: places on pictures
-  std::vector<std::string> pictures_;   // files in further views, one each
+  std::vector<float> vectors_;         // first buffer view: all positions and normals
+  std::string indices_;                // second buffer view
+  std::vector<float> places_;          // third buffer view: places on pictures
+  std::vector<std::string> pictures_;  // files in further views, one each
   std::vector<Geometry> geometries_;
   std::unordered_map<std::string, int> geometry_by_content_;
   std::unordered_map<int, std::size_t> picture_of_material_;

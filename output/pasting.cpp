@@ -35,8 +35,8 @@ double AreaOf(const Polygon& polygon) {
   return 0.5 * twice.norm();
 }
 
-// Takes the part away from the convex polygon that lies beyond side·axis = limit, and gives it. What
-// lies on the border belongs to both.
+// Takes the part away from the convex polygon that lies beyond side·axis = limit, and gives it.
+// What lies on the border belongs to both.
 Polygon CutAway(Polygon& polygon, int axis, double side, double limit) {
   Polygon kept, cut;
   for (std::size_t i = 0; i < polygon.size(); ++i) {

@@ -31,7 +31,8 @@ std::optional<Shade> Sample(const Picture& picture, double x, double y);
 Result<PicturePlane> PlaneOf(const model::OrthophotoPtr& orthophoto, int threads);
 // The orthophotos of a model whose pixels are at hand, the later first. Errors of Rectify.
 Result<std::vector<PicturePlane>> OrthophotoPlanes(const model::Model& model, int threads);
-// Lets what the plane shows be seen where the orthophoto's picture, which lies in it, shows nothing.
+// Lets what the plane shows be seen where the orthophoto's picture, which lies in it, shows
+// nothing.
 void ShowBehind(const PicturePlane& plane, const model::Orthophoto& orthophoto, int threads,
                 Picture* picture);
 // The picture with what is not seen of it in this colour, opaque.

@@ -273,8 +273,7 @@ Result<Scene> SceneThrough(const model::Photograph& photograph, const model::Ren
   const geom::Box world = BoxInWorld(parts);
   Scene scene;
   scene.planes = std::move(planes);
-  const Eye& eye =
-      scene.eye.emplace(camera, photograph.frame, request.width_px, request.height_px);
+  const Eye& eye = scene.eye.emplace(camera, photograph.frame, request.width_px, request.height_px);
   scene.camera.width_px = request.width_px;
   scene.camera.height_px = request.height_px;
   if (request.view.photo) scene.backdrop = PictureOf(photograph);
@@ -292,7 +291,12 @@ Result<Scene> SceneThrough(const model::Photograph& photograph, const model::Ren
     const PartLines seen_lines =
         has_lines ? SeenBy(eye, lines[placement.part], seen, world_from_part) : PartLines{};
     AddTo(box, seen.facets);
-    PlacementDrawer{scene, mode, seen, seen_lines, placement, Affine::Identity(),
+    PlacementDrawer{scene,
+                    mode,
+                    seen,
+                    seen_lines,
+                    placement,
+                    Affine::Identity(),
                     BorneBy(scene, parts.parts[placement.part], placement, seen.facets.mesh)}
         .AddAll();
   }

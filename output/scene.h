@@ -35,10 +35,10 @@ struct Borne {
 // What a picture shows, ready to be traced and drawn.
 struct Scene {
   Camera camera;
-  std::vector<RaySurface> surfaces;    // in the order of elements
-  std::vector<Shade> surface_colours;  // of each surface
+  std::vector<RaySurface> surfaces;       // in the order of elements
+  std::vector<Shade> surface_colours;     // of each surface
   std::vector<std::vector<Borne>> borne;  // likewise; what is seen first is first
-  std::vector<Stroke> strokes;         // later ones over earlier ones
+  std::vector<Stroke> strokes;            // later ones over earlier ones
   std::optional<Eye> eye;            // the viewer, where the view is through a photograph's camera
   std::vector<PicturePlane> planes;  // what faces in them show
   std::shared_ptr<const Picture> backdrop;  // the photograph, seen through the eye behind all

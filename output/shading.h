@@ -24,7 +24,8 @@ class Shader {
   // Unit, on the side that is seen.
   Eigen::Vector3f NormalAt(const HitPacket& hits, unsigned i,
                            const Eigen::Vector3f& towards_viewer) const;
-  // What is seen of a picture that the face bears, which has its own light; nothing if it bears none.
+  // What is seen of a picture that the face bears, which has its own light; nothing if it bears
+  // none.
   std::optional<Shade> PictureAt(std::uint32_t surface, std::uint32_t triangle,
                                  const Eigen::Vector3f& place) const;
 

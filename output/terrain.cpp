@@ -39,9 +39,8 @@ RayMesh TerrainOf(const geom::Box& building, const Vec3& camera, const Vec3& ori
   const auto height = [&](double x, double y) {
     const double away = DistanceFrom(building, x, y);
     const double slope = foot_m < top_m ? Smooth((away - 1) / std::max(reach_m - 1, 1.0)) : 0;
-    const double bump =
-        0.05 * Clouds2(11, static_cast<float>(0.3 * (x - pattern.x())),
-                       static_cast<float>(0.3 * (y - pattern.y())), 3);
+    const double bump = 0.05 * Clouds2(11, static_cast<float>(0.3 * (x - pattern.x())),
+                                       static_cast<float>(0.3 * (y - pattern.y())), 3);
     return top_m + slope * (foot_m - top_m) + Smooth((away - 0.5) / 2) * bump;
   };
   // Cells grow outward: dense where the building is.

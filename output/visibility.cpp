@@ -13,8 +13,8 @@ namespace {
 using Eigen::Vector2f;
 using Eigen::Vector3f;
 
-// A line that lies on a surface may be behind its facets by a little; so much, in pixels as they are
-// at that depth, does not hide it.
+// A line that lies on a surface may be behind its facets by a little; so much, in pixels as they
+// are at that depth, does not hide it.
 constexpr float kClearance_px = 1;
 constexpr float kStep_px = 1;
 constexpr int kHalvings = 5;  // of a step, where a line disappears
@@ -172,9 +172,8 @@ std::vector<float> DashesOf(int linestyle) {
 
 std::vector<InkLine> InkOf(const Scene& scene, const RayScene* rays, int threads) {
   std::vector<std::vector<InkLine>> by_stroke(scene.strokes.size());
-  ParallelFor(scene.strokes.size(), threads, [&](std::size_t i) {
-    by_stroke[i] = InkOfStroke(scene.strokes[i], scene, rays);
-  });
+  ParallelFor(scene.strokes.size(), threads,
+              [&](std::size_t i) { by_stroke[i] = InkOfStroke(scene.strokes[i], scene, rays); });
   std::vector<InkLine> ink;
   for (auto& lines : by_stroke) {
     std::move(lines.begin(), lines.end(), std::back_inserter(ink));

@@ -211,8 +211,8 @@ void AddEdges(const Json& step, interp::PhotographFiles* photographs) {
     const auto a = camera::NumbersIn(dots[0], 2), b = camera::NumbersIn(dots[1], 2);
     if (!a || !b) return;
     const auto samples = camera::NumberIn(camera::MemberOf(trace, "samples"));
-    edges.push_back({{geom::Vec2((*a)[0], (*a)[1]), geom::Vec2((*b)[0], (*b)[1])},
-                     samples.value_or(0)});
+    edges.push_back(
+        {{geom::Vec2((*a)[0], (*a)[1]), geom::Vec2((*b)[0], (*b)[1])}, samples.value_or(0)});
     noise_px = *noise;
   }
   photographs->edges[interp::EdgesKey({*hash, *least_px}, noise_px)] = std::move(edges);

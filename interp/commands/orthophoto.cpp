@@ -54,27 +54,29 @@ void AddTraces(const State& state, const model::Element& photograph, const std::
 void AddBearing(const State& state, const Frame& plane, double tolerance_m, Extent* extent) {
   const geom::Affine plane_from_world = plane.WorldFromFrame().inverse();
   state.model.ForEach([&](const ElementPtr& element) {
-    model::ForEachLeaf(*element, [&](const model::Element& leaf, const geom::Affine& world_from_leaf,
-                                     const model::Attributes& attributes) {
-      if (!model::HasFaces(leaf) || !state.model.LevelIsOn(attributes.level)) return;
-      const geom::Box box =
-          geom::Carried(model::BoundingBox(leaf), plane_from_world * world_from_leaf);
-      if (box.empty() || box.min.z() > tolerance_m || box.max.z() < -tolerance_m) return;
-      const auto mesh = model::FacesOf(leaf, leaf.tolerance);
-      if (!mesh) return;
-      const Eigen::Matrix3d world_from_normal = world_from_leaf.linear().inverse().transpose();
-      for (const auto& triangle : mesh->triangles) {
-        std::array<Vec3, 3> corners;
-        for (std::size_t i = 0; i < 3; ++i) {
-          corners[i] = world_from_leaf * mesh->positions[triangle[i]];
-        }
-        const Vec3 outward = model::HasOutside(leaf)
-                                 ? Vec3(world_from_normal * mesh->normals[triangle[0]])
-                                 : Vec3(Vec3::Zero());
-        if (!model::Bears(corners, outward, plane, tolerance_m)) continue;
-        for (const Vec3& corner : corners) extent->extend(plane.ToLocal(corner).head<2>().eval());
-      }
-    });
+    model::ForEachLeaf(
+        *element, [&](const model::Element& leaf, const geom::Affine& world_from_leaf,
+                      const model::Attributes& attributes) {
+          if (!model::HasFaces(leaf) || !state.model.LevelIsOn(attributes.level)) return;
+          const geom::Box box =
+              geom::Carried(model::BoundingBox(leaf), plane_from_world * world_from_leaf);
+          if (box.empty() || box.min.z() > tolerance_m || box.max.z() < -tolerance_m) return;
+          const auto mesh = model::FacesOf(leaf, leaf.tolerance);
+          if (!mesh) return;
+          const Eigen::Matrix3d world_from_normal = world_from_leaf.linear().inverse().transpose();
+          for (const auto& triangle : mesh->triangles) {
+            std::array<Vec3, 3> corners;
+            for (std::size_t i = 0; i < 3; ++i) {
+              corners[i] = world_from_leaf * mesh->positions[triangle[i]];
+            }
+            const Vec3 outward = model::HasOutside(leaf)
+                                     ? Vec3(world_from_normal * mesh->normals[triangle[0]])
+                                     : Vec3(Vec3::Zero());
+            if (!model::Bears(corners, outward, plane, tolerance_m)) continue;
+            for (const Vec3& corner : corners)
+              extent->extend(plane.ToLocal(corner).head<2>().eval());
+          }
+        });
   });
 }
 
@@ -193,8 +195,7 @@ CommandResult ConstructOrthophoto(const State& state, const Answers& answers) {
   if (!extent) return Fail(extent.error());
   const auto size_px = SizeOver(*extent, made.pixel_m);
   if (!size_px) return Fail(size_px.error());
-  if (auto error =
-          NotSeen(plane, taken.estimate->camera.position_m(), made.facade, *extent)) {
+  if (auto error = NotSeen(plane, taken.estimate->camera.position_m(), made.facade, *extent)) {
     return Fail(*error);
   }
   const std::vector<double> sampling_m = Sampling(*extent, dot_from_plane, taken.frame);
@@ -221,7 +222,8 @@ CommandResult ConstructOrthophoto(const State& state, const Answers& answers) {
   const auto shared = std::make_shared<const Orthophoto>(std::move(made));
   Fired fired = *Make(state, shared);
   fired.messages.push_back(told);
-  if (is_written) fired.edit.outputs.emplace_back(model::OrthophotoRequest{shared, answers.Text("file")});
+  if (is_written)
+    fired.edit.outputs.emplace_back(model::OrthophotoRequest{shared, answers.Text("file")});
   return fired;
 }
 

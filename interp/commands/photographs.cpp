@@ -48,8 +48,9 @@ tl::expected<ElementPtr, CommandError> PhotographAt(const model::State& state,
   if (key == "camera") {
     return Fail({.code = Code::kNoPhotograph,
                  .message = "which camera? None was set, and no photograph is attached",
-                 .help = "place camera f=35mm format=36mm,24mm size=1200,800 xy=9,-14,1.6 as paper, "
-                         "then camera=paper"});
+                 .help =
+                     "place camera f=35mm format=36mm,24mm size=1200,800 xy=9,-14,1.6 as paper, "
+                     "then camera=paper"});
   }
   return Fail({.code = Code::kNoPhotograph,
                .message = "there is no photograph yet",

@@ -178,8 +178,8 @@ tl::expected<PhotoRequest, CommandError> RequestOf(const State& state, const Ans
 // What taking it costs, in steps of a run: the ground and the light at least, and its pixels.
 std::uint64_t StepsOf(const PhotoRequest& request) {
   constexpr std::uint64_t kLeast = 20'000, kPixelsAStep = 8;
-  return kLeast + static_cast<std::uint64_t>(request.frame.size_px.cast<double>().prod()) /
-                      kPixelsAStep;
+  return kLeast +
+         static_cast<std::uint64_t>(request.frame.size_px.cast<double>().prod()) / kPixelsAStep;
 }
 
 // The photograph, which is taken once its pixels are asked for, and once in a run: what stands
@@ -192,8 +192,8 @@ PhotographFile Taken(const std::shared_ptr<const PhotoRequest>& request,
   surroundings.charge(StepsOf(*request));
   known->second = {hash, request->frame.size_px};
   if (!surroundings.host.render_photo) return known->second;  // a replay
-  const auto take = [request, render = surroundings.host.render_photo]()
-      -> geom::Result<camera::PhotoPtr> {
+  const auto take = [request,
+                     render = surroundings.host.render_photo]() -> geom::Result<camera::PhotoPtr> {
     auto pixels = render(*request);
     if (pixels) return *std::move(pixels);
     return tl::unexpected(geom::Error{geom::ErrorCode::kTooLarge, pixels.error()});

@@ -141,6 +141,50 @@ TEST(Gltf, HiddenLevelsStayOut) {
   EXPECT_TRUE(ReadBack(*GlbOf(model, {})).nodes[0].children.empty());
 }
 
+model::ElementPtr PhotographOn(const char* level) {
+  camera::Estimate estimate;
+  estimate.camera.parameters << 36, 1, 0, 0, geom::kPi / 2, 0, 0, 0, 0, -10, 2;
+  model::Photograph photograph;
+  photograph.attached = true;
+  photograph.frame = {{36, 24}, {36, 24}};
+  photograph.estimate = std::make_shared<const camera::Estimate>(estimate);
+  camera::Photo pixels{36, 24, std::vector<std::uint8_t>(std::size_t{3} * 36 * 24)};
+  photograph.picture = std::make_shared<const camera::PhotoFile>(
+      std::make_shared<const camera::Photo>(std::move(pixels)));
+  model::Attributes attributes;
+  attributes.level = level;
+  return ElementOf(std::make_shared<const model::Photograph>(photograph), attributes);
+}
+
+TEST(Gltf, APhotographsPlaneIsPlacedByWhatIsVisible) {
+  model::Attributes off;
+  off.level = "off";
+  model::Model model = ModelOf({PhotographOn("1"), WallOf({0, 0, 0}, 4, 3)});
+  const auto plane_of = [](const model::Model& shown) {
+    const tinygltf::Model file = ReadBack(*GlbOf(shown, {.photographs = true}));
+    for (const tinygltf::Node& node : file.nodes) {
+      if (node.name == "photograph at its frame") return Translation(node);
+    }
+    return Vec3(0, 0, 0);
+  };
+  const Vec3 alone = plane_of(model);
+  EXPECT_NEAR(alone.y(), -10 + Vec3(2, 10, -0.5).norm() / 7, 1e-6);
+  const auto far_off = ElementOf(std::make_shared<const geom::Surface>(*geom::Extrusion(
+                                     geom::Line{{0, 300, 0}, {9, 300, 0}}, Vec3(0, 0, 9))),
+                                 off);
+  model = ModelOf({PhotographOn("1"), WallOf({0, 0, 0}, 4, 3), far_off});
+  EXPECT_GT((plane_of(model) - alone).norm(), 1);
+  model.hidden_levels = std::make_shared<const std::vector<std::string>>(1, "off");
+  EXPECT_EQ(plane_of(model), alone);
+}
+
+TEST(Gltf, APhotographOnALevelThatIsOffIsNotThere) {
+  model::Model model = ModelOf({PhotographOn("off"), WallOf({0, 0, 0}, 4, 3)});
+  EXPECT_EQ(ReadBack(*GlbOf(model, {.photographs = true})).nodes.size(), 4U);
+  model.hidden_levels = std::make_shared<const std::vector<std::string>>(1, "off");
+  EXPECT_EQ(ReadBack(*GlbOf(model, {.photographs = true})).nodes.size(), 2U);
+}
+
 TEST(Gltf, SameModelSameBytes) {
   EXPECT_EQ(*GlbOf(ModelOf({SphereOf()}), {}), *GlbOf(ModelOf({SphereOf()}), {}));
 }
