@@ -156,6 +156,37 @@ model::ElementPtr PhotographOn(const char* level) {
   return ElementOf(std::make_shared<const model::Photograph>(photograph), attributes);
 }
 
+std::vector<tinygltf::Primitive> Textured(const tinygltf::Model& file) {
+  std::vector<tinygltf::Primitive> textured;
+  for (const tinygltf::Mesh& mesh : file.meshes) {
+    for (const tinygltf::Primitive& primitive : mesh.primitives) {
+      if (primitive.attributes.contains("TEXCOORD_0")) textured.push_back(primitive);
+    }
+  }
+  return textured;
+}
+
+TEST(Gltf, OfTwoOrthophotosInOnePlaceTheEarlierIsSeenWhereTheLaterShowsNothing) {
+  // The later camera stands so far to the right that its photograph begins at x = 2.15 m.
+  const double left_m = 2.15, half_m = 10 * 40.5 / 25 / 2;
+  const std::vector<model::ElementPtr> two{EvenOrthophoto(90),
+                                           EvenOrthophoto(200, {left_m + half_m, -10, 1.5})};
+  for (const bool has_wall : {true, false}) {
+    std::vector<model::ElementPtr> elements = two;
+    if (has_wall) elements.push_back(WallOf({0, 0, 0}, 4, 3));
+    const tinygltf::Model file = ReadBack(*GlbOf(ModelOf(elements), {}));
+    ASSERT_EQ(Textured(file).size(), 1U) << "on a wall: " << has_wall;
+    ASSERT_EQ(file.images.size(), 1U);
+    const tinygltf::Image& image = file.images[0];
+    ASSERT_EQ(image.width, 200);
+    const auto tone = [&](int x) { return image.image[image.component * (75 * image.width + x)]; };
+    EXPECT_EQ(tone(20), 90);
+    EXPECT_EQ(tone(100), 90);
+    EXPECT_EQ(tone(115), 200);
+    EXPECT_EQ(tone(180), 200);
+  }
+}
+
 TEST(Gltf, APhotographsPlaneIsPlacedByWhatIsVisible) {
   model::Attributes off;
   off.level = "off";

@@ -65,16 +65,6 @@ TEST(Picture, HiddenLineIsLeftOutAndWireframeShowsIt) {
   EXPECT_GT(dark_in_column(hidden, 50), 0);
 }
 
-// A stated camera that looks along Y, level.
-model::ElementPtr CameraAt(const Vec3& place_m) {
-  camera::Estimate estimate;
-  estimate.camera.parameters << 25, 1, 0, 0, geom::kPi / 2, 0, 0, 0, place_m.x(), place_m.y(),
-      place_m.z();
-  model::Photograph photograph;
-  photograph.frame = {{40.5, 26.7}, {600, 400}};
-  photograph.estimate = std::make_shared<const camera::Estimate>(estimate);
-  return ElementOf(std::make_shared<const model::Photograph>(photograph));
-}
 model::RenderRequest ThroughFirst(std::vector<model::ElementPtr> elements, RenderMode mode) {
   model::RenderRequest request;
   request.model = ModelOf(std::move(elements));
@@ -119,21 +109,6 @@ TEST(Picture, AViewThroughACameraFollowsItWhenItIsMoved) {
   const double focal_px = 25 / 40.5 * 600;
   EXPECT_NEAR(wall_at(0), 300 - focal_px / 10, 2);
   EXPECT_NEAR(wall_at(2), 300 - 3 * focal_px / 10, 2);
-}
-
-// An orthophoto of 4 m by 3 m in the plane y = 0, all of this tone.
-model::ElementPtr EvenOrthophoto(std::uint8_t tone) {
-  model::Orthophoto made;
-  made.facade = "front";
-  made.photograph = CameraAt({2, -10, 1.5});
-  camera::Photo photo{600, 400, std::vector<std::uint8_t>(std::size_t{3} * 600 * 400, tone)};
-  made.pixels = std::make_shared<const camera::Photo>(std::move(photo));
-  made.plane = {Vec3::Zero(), Vec3::UnitX(), Vec3::UnitZ()};
-  made.pixel_m = 0.02;
-  made.size_px = {200, 150};
-  made.tolerance_m = 0.02;
-  made.standing = std::make_shared<const model::Model>();
-  return ElementOf(std::make_shared<const model::Orthophoto>(made));
 }
 
 TEST(Picture, AFaceShowsThePhotographAsItIs) {
