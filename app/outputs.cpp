@@ -78,7 +78,9 @@ struct Maker {
     return output::CameraFilesOf(request);
   }
   output::Result<Files> operator()(const model::PhotoFileRequest& request) const {
-    const camera::Photo& photo = *request.pixels;
+    const auto pixels = request.picture->Pixels();
+    if (!pixels) return tl::unexpected(output::Error{pixels.error().detail});
+    const camera::Photo& photo = **pixels;
     auto files = One(output::PngOf({photo.width_px, photo.height_px, photo.rgb}));
     if (files) {
       files->push_back({TruthPath(path), PhotoTruthJson(*request.taken_as, path)});

@@ -20,8 +20,8 @@ model::Orthophoto Large() {
   model::Photograph photograph;
   photograph.frame = {{36, 24}, {6000, 4000}};
   camera::Estimate estimate;
-  estimate.camera.parameters << 35, 1.01, 0.2, -0.1, 89 * kDegree, 8 * kDegree, 25 * kDegree,
-      1 * kDegree, 38, -34, 2;
+  estimate.camera.parameters << 24, 1.01, 0.2, -0.1, 89 * kDegree, 12 * kDegree, 8 * kDegree,
+      1 * kDegree, 26, -48, 4;
   photograph.estimate = std::make_shared<const camera::Estimate>(estimate);
   camera::Photo photo{6000, 4000, {}};
   photo.rgb.resize(std::size_t{3} * 6000 * 4000);

@@ -15,6 +15,7 @@
 #include "camera/trace_checks.h"
 #include "interp/camera_report.h"
 #include "interp/commands/drawing.h"
+#include "interp/commands/firing.h"
 #include "interp/evaluation.h"
 #include "interp/machine.h"
 #include "interp/traced.h"
@@ -326,6 +327,7 @@ Fired Machine::Calibrated(Solution solution, const model::State& before, Span sp
       photograph.unknown_dimensions.push_back(solvables_[source].dimension);
     }
     Warn(found[p], *element, traced.trace_ids[p], span);
+    WarnOfOrthophotos(run.state().model, element->id, span);
     photograph.camera_file.clear();
     photograph.estimate = std::make_shared<const camera::Estimate>(std::move(found[p]));
     std::erase_if(fired.edit.replaced,
@@ -335,6 +337,20 @@ Fired Machine::Calibrated(Solution solution, const model::State& before, Span sp
   }
   PrintHeld();
   return fired;
+}
+
+// Those that were made with the camera that the photograph came with.
+void Machine::WarnOfOrthophotos(const model::Model& model, ElementId photograph, Span span) {
+  model.ForEach([&](const ElementPtr& element) {
+    const auto* made = std::get_if<model::OrthophotoPtr>(&element->geometry);
+    if (!made || (*made)->photograph->id != photograph) return;
+    outcome_.diagnostics.Add(
+        {Code::kTakesNoPart, span,
+         fmt::format("{} was made before, with the camera that the photograph came with, and keeps "
+                     "it",
+                     NameForMessage(*element)),
+         "", "`construct orthophoto` after `calibrate` has the camera that it finds"});
+  });
 }
 
 void Machine::Warn(const camera::Estimate& estimate, const model::Element& photograph,

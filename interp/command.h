@@ -4,6 +4,8 @@
 // binding and the engine read it there.
 #pragma once
 
+#include <array>
+#include <functional>
 #include <map>
 #include <optional>
 #include <span>
@@ -107,11 +109,24 @@ struct PhotographFile {
   std::shared_ptr<const camera::PhotoFile> picture = nullptr;  // null where no pixels are at hand
   std::optional<camera::FramedCamera> camera = {};             // if one was read from it
 };
-using PhotographFiles = std::map<std::string, PhotographFile>;  // read so far, by path
+// An edge that was found on a photograph: its ends, and as how many pixels it counts.
+struct FoundEdge {
+  std::array<geom::Vec2, 2> ends_px;
+  double samples;
+};
+// What has been read of photographs, or was known beforehand.
+struct PhotographFiles {
+  std::map<std::string, PhotographFile> by_path;
+  std::map<model::Hash128, PhotographFile> taken;       // by `render photo`, by content
+  std::map<std::string, std::vector<FoundEdge>> edges;  // by EdgesKey
+};
+// Of the edges that are found on a photograph where dots deviate by this (0: not stated).
+std::string EdgesKey(const model::Detection& detection, double noise_px);
 struct Surroundings {
   const Host& host;                    // to read a photograph
   const std::vector<Source>& sources;  // of deviations
   PhotographFiles& photographs;
+  const std::function<void(std::uint64_t steps)>& charge;  // against the limit of steps
 };
 
 // undo, redo and mark work on the run's history, not on one state.

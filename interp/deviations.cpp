@@ -161,7 +161,11 @@ bool AreAlike(const std::vector<ElementPtr>& a, const std::vector<ElementPtr>& b
 std::optional<int> CarryDeviations(const Command& row, const State& before, const Answers& answers,
                                    std::span<const PointTerms> terms, const SourceList& sources,
                                    model::Edit* edit) {
-  const bool makes = !edit->added.empty() || !edit->replaced.empty();
+  // An orthophoto is a picture that lies where it was asked for.
+  const auto is_picture = [](const ElementPtr& element) {
+    return std::holds_alternative<model::OrthophotoPtr>(element->geometry);
+  };
+  const bool makes = !std::ranges::all_of(edit->added, is_picture) || !edit->replaced.empty();
   if (!makes || !row.execute || row.informs) return 0;
   const Beside beside(row, before, answers, terms);
   if (beside.sources().empty()) return 0;

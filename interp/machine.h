@@ -107,6 +107,7 @@ class Machine {
                           const Traced& traced, Span span);
   [[noreturn]] static void EndTrial();
   Fired Calibrated(Solution solution, const model::State& before, Span span);
+  void WarnOfOrthophotos(const model::Model& model, model::ElementId photograph, Span span);
   void Warn(const camera::Estimate& estimate, const model::Element& photograph,
             const std::vector<model::ElementId>& trace_ids, Span span);
   model::Edit Adopt(TrialRun& solved, const model::State& before, Span span);

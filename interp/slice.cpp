@@ -110,9 +110,9 @@ void Slice::NoteText(const Value& text) {
 }
 
 std::size_t Slice::NotePoint(PointKey kind, const Value& values, const model::Drawing& drawing,
-                             std::size_t last) {
+                             const geom::Frame& view, std::size_t last) {
   if (last == kNone && !HoldsNumber(values)) return kNone;
-  points_.push_back({kind, values, drawing, last});
+  points_.push_back({kind, values, drawing, view, last});
   return points_.size() - 1;
 }
 
@@ -176,7 +176,7 @@ Value Slice::Now(const Value& value, const Known& known) {
 geom::Vec3 Slice::Now(const Point& point, const Known& known) const {
   const geom::Vec3 last =
       point.last == kNone ? point.drawing.last_point : Now(points_[point.last], known);
-  return PlaceOf(point.kind, Now(point.values, known), point.drawing, last);
+  return PlaceOf(point.kind, Now(point.values, known), point.drawing, point.view, last);
 }
 
 Answers Slice::Now(const Firing& firing, const Known& known) const {

@@ -34,6 +34,7 @@ class Slice {
     PointKey kind;
     model::Value values;
     model::Drawing drawing;
+    geom::Frame view;
     std::size_t last = kNone;  // of these points, the last one before it
   };
   // A firing that placed an element by such points, or by such keys.
@@ -58,7 +59,7 @@ class Slice {
 
   // Notes a data point and gives its index; kNone where it did not come from a source.
   std::size_t NotePoint(PointKey kind, const model::Value& values, const model::Drawing& drawing,
-                        std::size_t last);
+                        const geom::Frame& view, std::size_t last);
   // Notes a firing, if a point or key of it came from a source.
   void NoteFiring(Firing firing);
 

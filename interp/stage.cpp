@@ -227,7 +227,8 @@ std::string PointText(PointKey kind, const Value& values) {
 
 }  // namespace
 
-Vec3 PlaceOf(PointKey kind, const Value& values, const model::Drawing& drawing, const Vec3& last) {
+Vec3 PlaceOf(PointKey kind, const Value& values, const model::Drawing& drawing,
+             const geom::Frame& view, const Vec3& last) {
   const geom::Frame& plane = drawing.settings->plane;
   std::size_t given = 0;
   const Vec3 v = Coordinates(values, &given);
@@ -243,10 +244,8 @@ Vec3 PlaceOf(PointKey kind, const Value& values, const model::Drawing& drawing, 
       const Vec3 local = Rotation(Vec3::Zero(), Vec3::UnitZ(), v.y()) * Vec3(v.x(), 0, 0);
       return last + plane.ToWorld(local) - plane.origin;
     }
-    case PointKey::kDx: {
-      const geom::Frame view = model::FrameOf(*drawing.view, "top");
+    case PointKey::kDx:
       return last + view.ToWorld(v) - view.origin;
-    }
     case PointKey::kDot:
       return {v.x(), v.y(), 0};  // as a trace takes it
     case PointKey::kOn:
@@ -297,12 +296,13 @@ void Stage::Point(PointKey kind, const Value& values, Span span) {
     return TakePoint(DrawnThrough(values, span), span);
   }
   const model::Drawing& drawing = state_.drawing;
+  const geom::Frame view = model::FrameOf(*drawing.view, state_.model, "top");
   const bool follows = kind == PointKey::kDl || kind == PointKey::kDi || kind == PointKey::kDx;
   if (Slice* const slice = SliceInUse()) {
     point_note_ =
-        slice->NotePoint(kind, values, drawing, follows ? last_note_ : Slice::kNone);
+        slice->NotePoint(kind, values, drawing, view, follows ? last_note_ : Slice::kNone);
   }
-  TakePoint({PlaceOf(kind, values, drawing, drawing.last_point), TermsOf(kind, values)}, span,
+  TakePoint({PlaceOf(kind, values, drawing, view, drawing.last_point), TermsOf(kind, values)}, span,
             kind == PointKey::kDot);
   point_note_ = Slice::kNone;
 }

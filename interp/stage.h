@@ -81,9 +81,10 @@ struct StageLinks {
   const std::vector<const model::Value*>* turn_values;  // the loops' variables
 };
 
-// Where a data point lies: by its values, the settings and the view in force, and the point before.
+// Where a data point lies: by its values, the settings in force, the axes of the view, and the
+// point before.
 geom::Vec3 PlaceOf(PointKey kind, const model::Value& values, const model::Drawing& drawing,
-                   const geom::Vec3& last);
+                   const geom::Frame& view, const geom::Vec3& last);
 
 class Stage {
  public:

@@ -273,9 +273,13 @@ void Stage::Fire(Span span) {
 
 Fired Stage::Execute(const Command& row, const Answers& answers, Span span) const {
   if (row.calibrates) return links_.calibrate(answers, state_, span);
+  const std::function<void(std::uint64_t)> charge = [&](std::uint64_t steps) {
+    links_.budget->ChargeSteps(steps, span);
+  };
   CommandResult result =
       row.execute_with
-          ? row.execute_with(state_, answers, {*links_.host, *links_.sources, *links_.photographs})
+          ? row.execute_with(state_, answers,
+                             {*links_.host, *links_.sources, *links_.photographs, charge})
           : row.execute(state_, answers);
   if (!result) throw RunFailure{MakeDiagnostic(result.error())};
   return *std::move(result);

@@ -23,10 +23,10 @@ struct ExportRequest {
   std::string file;          // its extension chooses the format
   bool photographs = false;  // as planes at their frames, where the format can hold them
 };
-// A photograph that has been taken, and beside it, as JSON, how it came to be.
+// A photograph that is taken, and beside it, as JSON, how it came to be.
 struct PhotoFileRequest {
   std::shared_ptr<const PhotoRequest> taken_as;
-  camera::PhotoPtr pixels;
+  std::shared_ptr<const camera::PhotoFile> picture;
   std::string file;
 };
 // An orthophoto, and beside it, as JSON, where it lies and what is not seen of it.
@@ -54,6 +54,13 @@ using OutputRequest =
 // The model that it shows or tells of; null if it is of none.
 const Model* ModelOf(const OutputRequest& request);
 
+// That the traces which an edit adds were found in a photograph's pixels, which a journal does not
+// keep: with what it is found by, a replay finds them again.
+struct Detection {
+  Hash128 content;           // of the photograph
+  double min_length_px = 0;  // of the edges asked for
+};
+
 struct Edit {
   std::vector<ElementPtr> added;     // Apply gives them their ids, in order
   std::vector<ElementPtr> replaced;  // new content under the same id
@@ -71,6 +78,7 @@ struct Edit {
   std::optional<geom::Vec3> last_point;
   std::optional<ElementId> photograph;  // the one that traces go to; kAddedBase + i as above
   std::vector<OutputRequest> outputs;   // no part of the state: app runs them after the script
+  std::optional<Detection> detection;   // likewise: for the journal
 
   bool ChangesModel() const {
     return !added.empty() || !replaced.empty() || !consumed.empty() || !deleted.empty() ||

@@ -4,6 +4,7 @@
 // its plane.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <string>
 
@@ -31,6 +32,14 @@ struct Orthophoto {
   geom::Vec2 size_m() const { return pixel_m * size_px.cast<double>(); }
 };
 
+// Of what stands before it, that and no more: what cannot hide it may change.
 void AddToHash(Hasher& hasher, const Orthophoto& orthophoto);
+
+// Whether a triangle bears what lies in a plane: none of its corners, given in the world, is
+// farther from the plane than the tolerance, it is parallel to the plane within 2.5°, and its outer
+// side is the plane's front. `outward` is a direction on the outer side, or zero for a face that
+// has none.
+bool Bears(const std::array<geom::Vec3, 3>& in_world, const geom::Vec3& outward,
+           const geom::Frame& plane, double tolerance_m);
 
 }  // namespace tranos::model

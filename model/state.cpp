@@ -20,6 +20,13 @@ bool Model::LevelIsOn(const std::string& level) const {
          std::find(hidden_levels->begin(), hidden_levels->end(), level) == hidden_levels->end();
 }
 
+Model Apart(const Model& model) {
+  Model apart = model;
+  apart.entries = {};
+  model.entries.ForEach([&](const Entry& entry) { apart.entries.Append(entry); });
+  return apart;
+}
+
 Hash128 HashOf(const Settings& settings) {
   Hasher hasher;
   AddToHash(hasher, *settings.attributes);

@@ -36,6 +36,10 @@ struct Model {
   bool LevelIsOn(const std::string& level) const;
 };
 
+// The same model in storage of its own, for an element to hold: versions of a model share the
+// blocks that later elements are appended to, and an element that held them would hold itself.
+Model Apart(const Model& model);
+
 // The settings (docs/language.md, "Settings") and the active plane; immutable, shared until one is
 // set.
 struct Settings {
@@ -59,14 +63,17 @@ struct View {
   RenderMode mode = RenderMode::kPhong;
   bool antialias = false;
   bool shadows = false;
-  bool textured = false;        // faces bear the orthophotos that lie in their planes
-  bool photo = false;           // photographs are seen: behind all, or as planes at their frames
-  std::string direction;        // "front" … "iso"; "" until `view` is used, which renders as iso
-  ElementPtr camera = nullptr;  // through which it is seen, in place of a direction
+  bool textured = false;  // faces bear the orthophotos that lie in their planes
+  bool photo = false;     // photographs are seen: behind all, or as planes at their frames
+  std::string direction;  // "front" … "iso"; "" until `view` is used, which renders as iso
+  ElementId camera = kNoElement;  // through which it is seen, in place of a direction
 };
 geom::Frame FrameOf(std::string_view direction);  // x right, y up, z towards the viewer
+// The photograph that the view is through, as the model has it now; null where the view is along a
+// direction, or the photograph is gone or has no camera.
+ElementPtr CameraOf(const View& view, const Model& model);
 // The axes of the view; as `otherwise` where none was chosen yet.
-geom::Frame FrameOf(const View& view, std::string_view otherwise);
+geom::Frame FrameOf(const View& view, const Model& model, std::string_view otherwise);
 
 struct Drawing {
   SettingsPtr settings = std::make_shared<const Settings>();

@@ -19,9 +19,16 @@ geom::Frame FrameOf(std::string_view direction) {
   return {origin, Vec3(1, 1, 0) / std::sqrt(2.0), Vec3(-1, 1, 2) / std::sqrt(6.0)};
 }
 
-geom::Frame FrameOf(const View& view, std::string_view otherwise) {
-  if (!view.camera) return FrameOf(view.direction.empty() ? otherwise : view.direction);
-  const auto& photograph = *std::get<PhotographPtr>(view.camera->geometry);
+ElementPtr CameraOf(const View& view, const Model& model) {
+  const ElementPtr element = model.Current(view.camera);
+  const auto* photograph = element ? std::get_if<PhotographPtr>(&element->geometry) : nullptr;
+  return photograph && HasCamera(**photograph) ? element : nullptr;
+}
+
+geom::Frame FrameOf(const View& view, const Model& model, std::string_view otherwise) {
+  const ElementPtr through = CameraOf(view, model);
+  if (!through) return FrameOf(view.direction.empty() ? otherwise : view.direction);
+  const auto& photograph = *std::get<PhotographPtr>(through->geometry);
   const camera::Mat3 axes = camera::CameraFromWorld(photograph.estimate->camera.parameters);
   return {geom::Vec3::Zero(), axes.row(0).transpose(), -axes.row(1).transpose()};
 }

@@ -26,6 +26,7 @@ constexpr float kSky = 0.5f;          // that of the whole sky on a face turned 
 constexpr float kBounce = 0.26f;      // of the sky's, what comes from other faces instead
 constexpr float kSunRadius = 0.008f;  // softens the edges of shadows; in radians
 constexpr float kHaze_m = 2500;       // after which a face has lost two thirds of its contrast
+constexpr int kSkyRays = 4;           // from each sample, to find how much of the sky it sees
 constexpr float kOffset = 2e-4f;      // of the distance: where rays from a face begin
 constexpr int kBlock = 4;             // a packet is a square of samples
 constexpr int kBand_px = 16;          // rows of pixels that are made at a time
@@ -43,9 +44,10 @@ struct Face {
   Material material;
 };
 
-// The model and the ground, in metres about `origin`.
+// The model and the ground, in metres about `origin`; patterns begin at `pattern_origin`.
 struct World {
   Vec3 origin;
+  Vec3 pattern_origin;
   std::vector<RaySurface> surfaces;
   std::vector<Face> faces;                         // of each surface
   std::vector<Eigen::Matrix3f> world_from_normal;  // likewise
@@ -70,6 +72,7 @@ Result<World> WorldOf(const model::PhotoRequest& request, int threads) {
   if (box.empty()) box.Add(Vec3(eye.x(), eye.y(), eye.z() - 1.6));
   World world;
   world.origin = box.centre();
+  world.pattern_origin = PatternOrigin(world.origin);
   for (const Placement& placement : parts.placements) {
     const Part& part = parts.parts[placement.part];
     if (!part.ray_mesh) continue;
@@ -139,12 +142,13 @@ class Light {
   };
   using Samples = std::array<Sample, kPacket>;
 
-  // What comes from these directions to the eye; `pixel_rad` is the angle that a pixel covers.
-  void Gather(const Vector3f& eye, const RayPacket& towards, float pixel_rad, std::uint64_t seed,
-              Samples& out) const {
+  // What comes from these directions to the eye, of a block of samples, `side` of a pixel in each
+  // direction; `pixel_rad` is the angle that a pixel covers.
+  void Gather(const Vector3f& eye, const RayPacket& towards, int side, float pixel_rad,
+              std::uint64_t seed, Samples& out) const {
     const HitPacket hits = rays_.FirstHitsFrom(eye, towards);
-    RayPacket from, to_sun, to_sky;
-    LanePacket sunny{}, open{};
+    RayPacket from, to_sun;
+    LanePacket sunny{}, met{};
     std::array<Vector3f, kPacket> normals, places;
     for (unsigned i = 0; i < kPacket; ++i) {
       const Vector3f direction(towards.x[i], towards.y[i], towards.z[i]);
@@ -159,26 +163,23 @@ class Light {
       Put(from, i, start);
       const float r = kSunRadius * std::sqrt(draws.Uniform()), a = draws.Within(0, 6.2831853f);
       Put(to_sun, i, (sun_ + r * (std::cos(a) * sun_right_ + std::sin(a) * sun_up_)).normalized());
-      Put(to_sky, i, Scattered(normals[i], draws));
       sunny[i] = normals[i].dot(sun_) > 0;
-      open[i] = true;
+      met[i] = true;
     }
     rays_.DropOccluded(from, to_sun, sunny);
-    rays_.DropOccluded(from, to_sky, open);
+    const std::array<float, kPacket> from_sky = SkyOver(from, normals, met, side, seed);
     for (unsigned i = 0; i < kPacket; ++i) {
-      if (hits.surface[i] == kNothing) continue;
+      if (!met[i]) continue;
       const Vector3f direction(towards.x[i], towards.y[i], towards.z[i]);
-      const Vector3f sky(to_sky.x[i], to_sky.y[i], to_sky.z[i]);
-      const float from_sky = open[i] ? kSky * SkyAt(sky) : kSky * kBounce;
       const float from_sun = sunny[i] ? kSun * normals[i].dot(sun_) : 0;
       out[i] = {
-          Reflected(hits, i, places[i], normals[i], direction, from_sky + from_sun, pixel_rad),
+          Reflected(hits, i, places[i], normals[i], direction, from_sky[i] + from_sun, pixel_rad),
           hits.surface[i] != world_.ground};
     }
   }
 
  private:
-  static void Put(RayPacket& packet, unsigned i, const Vector3f& v) {
+  static void Put(RayPacket& packet, std::size_t i, const Vector3f& v) {
     packet.x[i] = v.x(), packet.y[i] = v.y(), packet.z[i] = v.z();
   }
 
@@ -196,11 +197,44 @@ class Light {
     return normal / (normal.dot(direction) > 0 ? -length : length);
   }
 
-  // A direction over the face, more often where the face takes more light from.
-  static Vector3f Scattered(const Vector3f& normal, Draws& draws) {
-    const float u = draws.Uniform(), a = draws.Within(0, 6.2831853f);
+  // The light of the sky, or of other faces instead, on each sample's face. The rays of a pixel's
+  // samples together are spread evenly over its sky: on a lattice, turned by chance for each pixel,
+  // and to each the opposite one, so that half of them meet what is below the horizon of a wall.
+  std::array<float, kPacket> SkyOver(const RayPacket& from,
+                                     const std::array<Vector3f, kPacket>& normals,
+                                     const LanePacket& met, int side, std::uint64_t seed) const {
+    std::array<float, kPacket> light{};
+    const int samples = side * side;
+    for (int ray = 0; ray < kSkyRays; ++ray) {
+      RayPacket to_sky;
+      for (std::size_t i = 0; i < kPacket; ++i) {
+        if (!met[i]) continue;
+        const int column = static_cast<int>(i) % kBlock, row = static_cast<int>(i) / kBlock;
+        const int pixel = row / side * kBlock + column / side;
+        const int k = ray / 2 * samples + row % side * side + column % side;
+        Draws turn(seed, kPacket + static_cast<std::uint64_t>(pixel));
+        const float u =
+            turn.Uniform() + static_cast<float>(2 * k) / static_cast<float>(kSkyRays * samples);
+        const float v = turn.Uniform() + 0.61803399f * static_cast<float>(k) +
+                        0.5f * static_cast<float>(ray % 2);
+        Put(to_sky, i, Over(normals[i], u - std::floor(u), v - std::floor(v)));
+      }
+      LanePacket open = met;
+      rays_.DropOccluded(from, to_sky, open);
+      for (std::size_t i = 0; i < kPacket; ++i) {
+        if (!met[i]) continue;
+        const Vector3f sky(to_sky.x[i], to_sky.y[i], to_sky.z[i]);
+        light[i] += kSky / kSkyRays * (open[i] ? SkyAt(sky) : kBounce);
+      }
+    }
+    return light;
+  }
+
+  // A direction over the face, more often where the face takes more light from, for two numbers
+  // from 0 to 1.
+  static Vector3f Over(const Vector3f& normal, float u, float v) {
     const Vector3f right = normal.unitOrthogonal(), up = normal.cross(right);
-    const float r = std::sqrt(u);
+    const float r = std::sqrt(u), a = 6.2831853f * v;
     return (r * std::cos(a) * right + r * std::sin(a) * up +
             std::sqrt(std::max(0.0f, 1 - u)) * normal)
         .normalized();
@@ -211,8 +245,8 @@ class Light {
     const Face& face = world_.faces[hits.surface[i]];
     const float facing = std::max(-normal.dot(direction), 0.05f);
     const float size_m = hits.z[i] * pixel_rad / std::sqrt(facing);
-    const Vector3f in_world = place + world_.origin.cast<float>();
-    float light = face.albedo * arriving * TextureTone(face.material, in_world, normal, size_m);
+    const Vector3f on_pattern = place + (world_.origin - world_.pattern_origin).cast<float>();
+    float light = face.albedo * arriving * TextureTone(face.material, on_pattern, normal, size_m);
     if (face.material == Material::kGlass) {
       // Dark within; at a grazing angle the sky is seen in it.
       const Vector3f mirrored = direction + 2 * facing * normal;
@@ -293,7 +327,7 @@ struct Ingredients {
     RayPacket towards;
     const bool all = Aim(x, y, towards);
     light.Gather(
-        eye, towards, pixel_rad,
+        eye, towards, side, pixel_rad,
         Hashed(request.seed, 7, static_cast<std::uint64_t>(x), static_cast<std::uint64_t>(y)),
         samples);
     return all;

@@ -25,8 +25,7 @@ double FinestPixel_m(const geom::Box& box, const camera::Camera& camera,
   return std::max(near_m, kNearestFine_m) * frame.pitch_mm().minCoeff() / camera[camera::kFocal];
 }
 
-Eye::Eye(const camera::Camera& camera, const camera::Frame& frame, int width_px, int height_px,
-         double middle_m)
+Eye::Eye(const camera::Camera& camera, const camera::Frame& frame, int width_px, int height_px)
     : scale_(std::min(width_px / double{1} / frame.size_px.x(),
                       height_px / double{1} / frame.size_px.y())),
       centre_px_(frame.centre_px()) {
@@ -38,7 +37,8 @@ Eye::Eye(const camera::Camera& camera, const camera::Frame& frame, int width_px,
   const camera::ProjectionMatrix dot = camera::DotFromWorld(camera, frame);
   picture_from_world_.row(0) = scale_ * (dot.row(0) - centre_px_.x() * dot.row(2));
   picture_from_world_.row(1) = -scale_ * (dot.row(1) - centre_px_.y() * dot.row(2));
-  picture_from_world_.row(2) << 0, 0, 0, scale_ * dot_from_camera(0, 0) * middle_m;
+  focal_px_ = scale_ * dot_from_camera(0, 0);
+  picture_from_world_.row(2) << 0, 0, 0, focal_px_;
   picture_from_world_.row(3) = dot.row(2);
   world_from_picture_ = picture_from_world_.inverse();
 }
@@ -130,7 +130,8 @@ Vector3f Eye::TowardsViewer(float x, float y) const {
 Vector3f Eye::Moving(const Vector3f& from, const Vector3f& direction) const {
   const Vec3 in_world = axes_.transpose() * direction.cast<double>();
   const Vector4d step = picture_from_world_.leftCols<3>() * in_world;
-  return (step.head<3>() - step.w() * from.cast<double>()).normalized().cast<float>();
+  // For a metre it is this by the depth, and a pixel shows the depth by the focal length.
+  return ((step.head<3>() - step.w() * from.cast<double>()) / focal_px_).cast<float>();
 }
 
 }  // namespace tranos::output

@@ -16,10 +16,8 @@ double FinestPixel_m(const geom::Box& box, const camera::Camera& camera,
 
 class Eye {
  public:
-  // The photograph's frame, as large as it fits into a picture of this size, in its middle; depths
-  // compare with widths at `middle_m` before the camera.
-  Eye(const camera::Camera& camera, const camera::Frame& frame, int width_px, int height_px,
-      double middle_m);
+  // The photograph's frame, as large as it fits into a picture of this size, in its middle.
+  Eye(const camera::Camera& camera, const camera::Frame& frame, int width_px, int height_px);
 
   // What of it lies before the camera, at 5 cm or more: positions in picture space, normals along
   // the viewer's axes (x right, y up, z to the viewer).
@@ -34,8 +32,11 @@ class Eye {
   }
   // Along the viewer's axes, unit, from a place of the picture.
   Eigen::Vector3f TowardsViewer(float x, float y) const;
-  // How what moves in a direction, given along the viewer's axes, moves in picture space; unit.
+  // Of what moves by the length that a pixel shows there, in a unit direction along the viewer's
+  // axes: how it moves in picture space.
   Eigen::Vector3f Moving(const Eigen::Vector3f& from, const Eigen::Vector3f& direction) const;
+  // By how much z changes over a depth of the length that a pixel shows where z is this.
+  float PixelOfDepth(float z) const { return z / static_cast<float>(focal_px_); }
   // Where a place of the picture is on the photograph, in dots.
   geom::Vec2 DotAt(double x, double y) const { return centre_px_ + geom::Vec2(x, -y) / scale_; }
 
@@ -48,7 +49,8 @@ class Eye {
   void AddLine(const Line& line, const geom::Affine& world_from_part,
                std::vector<Line>* lines) const;
 
-  double scale_;  // pixels of the picture for one of the photograph
+  double scale_;     // pixels of the picture for one of the photograph
+  double focal_px_;  // of the picture
   geom::Vec2 centre_px_;
   Eigen::Matrix4d picture_from_world_, world_from_picture_;
   camera::Mat3 axes_;  // from the world's

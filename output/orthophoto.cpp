@@ -181,10 +181,10 @@ class Sampler {
   }
 
  private:
-  // How many dots a pixel covers there along each side, in the mean; 0 where there is none.
+  // How many dots a pixel covers there along each side, in the mean; 0 behind the camera.
   double DotsAt(double x, double y) const {
     const Vec3 dot = dot_from_pixel_ * Vec3(x, y, 1);
-    if (!(dot.z() > 0) || !IsInside(dot.x() / dot.z(), dot.y() / dot.z())) return 0;
+    if (!(dot.z() > 0)) return 0;
     return std::sqrt(std::abs(dot_from_pixel_.determinant()) / (dot.z() * dot.z() * dot.z()));
   }
   double MostDots(const Eigen::Vector2i& size_px) const {

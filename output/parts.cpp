@@ -70,13 +70,7 @@ std::optional<Error> MakeFacets(Parts& parts, double chord_m, int threads) {
 geom::Box BoxInWorld(const Parts& parts) {
   geom::Box world;
   for (const Placement& placement : parts.placements) {
-    const geom::Box& box = parts.parts[placement.part].box;
-    if (box.empty()) continue;
-    for (int corner = 0; corner < 8; ++corner) {
-      world.Add(placement.world_from_part * Vec3(corner & 1 ? box.max.x() : box.min.x(),
-                                                 corner & 2 ? box.max.y() : box.min.y(),
-                                                 corner & 4 ? box.max.z() : box.min.z()));
-    }
+    world.Add(geom::Carried(parts.parts[placement.part].box, placement.world_from_part));
   }
   return world;
 }

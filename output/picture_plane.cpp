@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "output/orthophoto.h"
+#include "output/parallel.h"
 #include "output/pasting.h"
 
 namespace tranos::output {
@@ -12,9 +14,6 @@ namespace {
 using geom::Vec2;
 using geom::Vec3;
 
-// The cosine between a face and a plane, from which on it lies in it.
-constexpr double kParallel = 0.999;
-constexpr double kFrameTolerance_m = 1e-3;
 constexpr double kNearestFrame_m = 0.3;
 
 // Columns, rows and height from the corner where columns begin and rows end.
@@ -54,28 +53,66 @@ std::optional<Shade> Sample(const Picture& picture, double x, double y) {
   return shade;
 }
 
-std::optional<Shade> PicturePlane::At(const Vec3& point, const Vec3& face_normal) const {
-  if (std::abs(face_normal.dot(normal)) < kParallel) return std::nullopt;
+std::optional<Shade> PicturePlane::At(const Vec3& point) const {
   const Vec3 place = place_from_world * point.homogeneous();
-  if (std::abs(place.z()) > tolerance_m + 1e-3) return std::nullopt;
   return Sample(*picture, place.x() * picture->width_px - 0.5,
                 place.y() * picture->height_px - 0.5);
+}
+
+Result<PicturePlane> PlaneOf(const model::OrthophotoPtr& orthophoto, int threads) {
+  Result<RectifiedFacade> rectified = Rectify(*orthophoto, threads);
+  if (!rectified) return tl::unexpected(rectified.error());
+  const geom::Frame& plane = orthophoto->plane;
+  const Vec2 size = orthophoto->size_m();
+  return PicturePlane{PlacesOf(plane.origin, size.x() * plane.x, size.y() * plane.y),
+                      std::make_shared<const Picture>(std::move(rectified->picture)), orthophoto};
 }
 
 Result<std::vector<PicturePlane>> OrthophotoPlanes(const model::Model& model, int threads) {
   const Pasting pasting(model);
   std::vector<PicturePlane> planes;
   for (std::size_t i = pasting.elements().size(); i-- > 0;) {
-    const model::Orthophoto& made = pasting.At(i);
-    Result<RectifiedFacade> rectified = Rectify(made, threads);
-    if (!rectified) return tl::unexpected(rectified.error());
-    const geom::Frame& plane = made.plane;
-    const Vec2 size = made.size_m();
-    planes.push_back({PlacesOf(plane.origin, size.x() * plane.x, size.y() * plane.y), plane.z(),
-                      made.tolerance_m,
-                      std::make_shared<const Picture>(std::move(rectified->picture))});
+    Result<PicturePlane> plane = PlaneOf(pasting.Shared(i), threads);
+    if (!plane) return tl::unexpected(plane.error());
+    planes.push_back(*std::move(plane));
   }
   return planes;
+}
+
+void ShowBehind(const PicturePlane& plane, const model::Orthophoto& orthophoto, int threads,
+                Picture* picture) {
+  ParallelFor(static_cast<std::size_t>(picture->height_px), threads, [&](std::size_t row) {
+    for (int x = 0; x < picture->width_px; ++x) {
+      const std::size_t pixel = row * static_cast<std::size_t>(picture->width_px) + x;
+      if (picture->alpha[pixel] != 0) continue;
+      const double up = picture->height_px - static_cast<double>(row) - 0.5;
+      const auto shade =
+          plane.At(orthophoto.plane.ToWorld(orthophoto.pixel_m * Vec3(x + 0.5, up, 0)));
+      if (!shade) continue;
+      for (std::size_t c = 0; c < 3; ++c) {
+        picture->rgb[3 * pixel + c] =
+            static_cast<std::uint8_t>(255 * (*shade)[static_cast<Eigen::Index>(c)] + 0.5f);
+      }
+      picture->alpha[pixel] = 255;
+    }
+  });
+}
+
+Picture OverColour(const Picture& picture, const model::Rgb& colour) {
+  Picture over{picture.width_px, picture.height_px, picture.rgb, {}};
+  for (std::size_t i = 0; i < picture.alpha.size(); ++i) {
+    if (picture.alpha[i] != 0) continue;
+    over.rgb[3 * i] = colour.r, over.rgb[3 * i + 1] = colour.g, over.rgb[3 * i + 2] = colour.b;
+  }
+  return over;
+}
+
+std::shared_ptr<const Picture> PictureOf(const model::Photograph& photograph) {
+  if (!photograph.picture) return nullptr;
+  const auto pixels = photograph.picture->Pixels();
+  if (!pixels) return nullptr;
+  return std::make_shared<const Picture>(
+      Picture{(*pixels)->width_px, (*pixels)->height_px, (*pixels)->rgb});
 }
 
 std::array<Vec3, 4> FrameCorners(const model::Photograph& photograph, double depth_m) {
@@ -97,8 +134,7 @@ PicturePlane PlaneAtFrame(const model::Photograph& photograph, double depth_m,
                           std::shared_ptr<const Picture> picture) {
   const auto corners = FrameCorners(photograph, depth_m);
   const Vec3 along = corners[1] - corners[0], up = corners[3] - corners[0];
-  return {PlacesOf(corners[0], along, up), along.cross(up).normalized(), kFrameTolerance_m,
-          std::move(picture)};
+  return {PlacesOf(corners[0], along, up), std::move(picture)};
 }
 
 double FrameDepth_m(const model::Photograph& photograph, const geom::Box& built) {

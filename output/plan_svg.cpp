@@ -103,13 +103,7 @@ std::vector<Drawn> VisibleLines(const model::Model& model) {
 Camera CameraOn(const std::vector<Drawn>& lines, int side_px) {
   geom::Box box;
   for (const Drawn& line : lines) {
-    const geom::Box own = model::BoundingBox(*line.element);
-    if (own.empty()) continue;
-    for (int corner = 0; corner < 8; ++corner) {
-      box.Add(line.world_from_element * Vec3(corner & 1 ? own.max.x() : own.min.x(),
-                                             corner & 2 ? own.max.y() : own.min.y(),
-                                             corner & 4 ? own.max.z() : own.min.z()));
-    }
+    box.Add(geom::Carried(model::BoundingBox(*line.element), line.world_from_element));
   }
   return FitCamera(model::FrameOf("top"), box, side_px, side_px);
 }

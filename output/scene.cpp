@@ -8,10 +8,12 @@
 #include <memory>
 #include <utility>
 
+#include "model/faces.h"
 #include "output/material.h"
 #include "output/mesh_lines.h"
 #include "output/parallel.h"
 #include "output/parts.h"
+#include "output/pasting.h"
 
 namespace tranos::output {
 namespace {
@@ -37,15 +39,11 @@ struct PartLines {
 // measured.
 double RoughPixel(const Parts& parts, const geom::Frame& directions,
                   const model::RenderRequest& request) {
+  const Affine view_from_world = directions.WorldFromFrame().inverse();
   geom::Box view;
   for (const Placement& placement : parts.placements) {
-    const geom::Box& box = parts.parts[placement.part].box;
-    if (box.empty()) continue;
-    for (int corner = 0; corner < 8; ++corner) {
-      const Vec3 p(corner & 1 ? box.max.x() : box.min.x(), corner & 2 ? box.max.y() : box.min.y(),
-                   corner & 4 ? box.max.z() : box.min.z());
-      view.Add(directions.ToLocal(placement.world_from_part * p));
-    }
+    view.Add(geom::Carried(parts.parts[placement.part].box,
+                           view_from_world * placement.world_from_part));
   }
   return FitCamera(directions, view, request.width_px, request.height_px).pixel_m;
 }
@@ -133,6 +131,7 @@ struct PlacementDrawer {
   const PartLines& lines;
   const Placement& placement;
   Affine picture_from_part;
+  std::vector<Borne> borne;
 
   Eigen::Vector3f InPicture(const Vec3& p) const { return (picture_from_part * p).cast<float>(); }
   Stroke Empty() const {
@@ -191,6 +190,7 @@ struct PlacementDrawer {
     picture_from_mesh.translation() = picture_from_part * part.centre;
     scene.surfaces.push_back({part.ray_mesh, picture_from_mesh.affine().cast<float>()});
     scene.surface_colours.push_back(ShadeOf(SurfaceColour(placement.colour, placement.material)));
+    scene.borne.push_back(std::move(borne));
     if (mode == model::RenderMode::kPhong) return;
     Stroke form = Empty();
     form.opacity = kIsoOpacity;
@@ -233,26 +233,47 @@ void AddTo(geom::Box& box, const Facets& facets) {
   for (const Vec3& p : facets.points) box.Add(p);
 }
 
-// The photograph's picture, if it is at hand.
-std::shared_ptr<const Picture> PictureOf(const model::Photograph& photograph) {
-  if (!photograph.picture) return nullptr;
-  const auto pixels = photograph.picture->Pixels();
-  if (!pixels) return nullptr;
-  return std::make_shared<const Picture>(
-      Picture{(*pixels)->width_px, (*pixels)->height_px, (*pixels)->rgb});
+// The triangles of a mesh, drawn for a placed part, that bear the scene's orthophotos.
+std::vector<Borne> BorneBy(const Scene& scene, const Part& part, const Placement& placement,
+                           const geom::Mesh& drawn) {
+  const Affine& world_from_part = placement.world_from_part;
+  const Eigen::Matrix3d world_from_normal = world_from_part.linear().inverse().transpose();
+  const auto& eye = scene.eye;
+  const auto in_world = [&](const Vec3& p) -> Vec3 {
+    return eye ? eye->InWorld(p) : world_from_part * p;
+  };
+  const auto outward = [&](const Vec3& normal) -> Vec3 {
+    if (!model::HasOutside(*part.element)) return Vec3::Zero();
+    return eye ? eye->InWorldAlong(normal) : world_from_normal * normal;
+  };
+  std::vector<Borne> borne;
+  for (std::size_t p = 0; p < scene.planes.size(); ++p) {
+    const model::Orthophoto& of = *scene.planes[p].of;
+    if (!Touches(of, part.box, world_from_part)) continue;
+    std::vector<bool> by;
+    for (const auto& t : drawn.triangles) {
+      std::array<Vec3, 3> corners;
+      Vec3 out = Vec3::Zero();
+      for (std::size_t i = 0; i < 3; ++i) {
+        corners[i] = in_world(drawn.positions[t[i]]);
+        out += outward(drawn.normals[t[i]]);
+      }
+      by.push_back(model::Bears(corners, out, of.plane, of.tolerance_m));
+    }
+    borne.push_back({p, std::move(by)});
+  }
+  return borne;
 }
 
 // Through the camera of a photograph.
 Result<Scene> SceneThrough(const model::Photograph& photograph, const model::RenderRequest& request,
-                           int threads) {
+                           std::vector<PicturePlane> planes, int threads) {
   const camera::Camera& camera = photograph.estimate->camera;
   Parts parts = VisibleParts(request.model, threads);
   const geom::Box world = BoxInWorld(parts);
-  const double middle_m =
-      world.empty() ? 1 : std::max(0.1, camera::Project(camera, world.centre()).depth_m);
   Scene scene;
-  const Eye& eye =
-      scene.eye.emplace(camera, photograph.frame, request.width_px, request.height_px, middle_m);
+  scene.planes = std::move(planes);
+  const Eye& eye = scene.eye.emplace(camera, photograph.frame, request.width_px, request.height_px);
   scene.camera.width_px = request.width_px;
   scene.camera.height_px = request.height_px;
   if (request.view.photo) scene.backdrop = PictureOf(photograph);
@@ -270,7 +291,14 @@ Result<Scene> SceneThrough(const model::Photograph& photograph, const model::Ren
     const PartLines seen_lines =
         has_lines ? SeenBy(eye, lines[placement.part], seen, world_from_part) : PartLines{};
     AddTo(box, seen.facets);
-    PlacementDrawer{scene, mode, seen, seen_lines, placement, Affine::Identity()}.AddAll();
+    PlacementDrawer{scene,
+                    mode,
+                    seen,
+                    seen_lines,
+                    placement,
+                    Affine::Identity(),
+                    BorneBy(scene, parts.parts[placement.part], placement, seen.facets.mesh)}
+        .AddAll();
   }
   if (!box.empty()) {
     scene.nearest = static_cast<float>(box.max.z());
@@ -289,6 +317,7 @@ std::vector<ShownPhotograph> ShownPhotographs(const model::Model& model, const g
   model.ForEach([&](const model::ElementPtr& element) {
     const auto* photograph = std::get_if<model::PhotographPtr>(&element->geometry);
     if (!photograph || !HasCamera(**photograph)) return;
+    if (!model.LevelIsOn(element->attributes->level)) return;
     auto picture = PictureOf(**photograph);
     if (!picture) return;
     const double depth_m = FrameDepth_m(**photograph, built);
@@ -300,23 +329,23 @@ std::vector<ShownPhotograph> ShownPhotographs(const model::Model& model, const g
 
 void AddPhotograph(const ShownPhotograph& shown, const Affine& picture_from_world, Scene* scene) {
   geom::Mesh mesh;
-  for (const Vec3& corner : shown.corners) {
-    mesh.positions.push_back(corner - shown.corners[0]);
-    mesh.normals.push_back(shown.plane.normal);
-  }
+  for (const Vec3& corner : shown.corners) mesh.positions.push_back(corner - shown.corners[0]);
+  mesh.normals.assign(4, mesh.positions[1].cross(mesh.positions[3]).normalized());
   mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
   Affine picture_from_mesh = picture_from_world;
   picture_from_mesh.translation() = picture_from_world * shown.corners[0];
   scene->surfaces.push_back(
       {RayMeshOf(mesh, Vec3::Zero()), picture_from_mesh.affine().cast<float>()});
   scene->surface_colours.push_back(Shade::Ones());
+  scene->borne.push_back({{scene->planes.size(), {true, true}}});
   scene->planes.push_back(shown.plane);
 }
 
 // In a parallel projection.
-Result<Scene> SceneAlong(const model::RenderRequest& request, int threads) {
+Result<Scene> SceneAlong(const model::RenderRequest& request, std::vector<PicturePlane> planes,
+                         int threads) {
   const model::View& view = request.view;
-  const geom::Frame directions = model::FrameOf(view, "iso");
+  const geom::Frame directions = model::FrameOf(view, request.model, "iso");
   Parts parts = VisibleParts(request.model, threads);
   const double pixel_m = RoughPixel(parts, directions, request);
   if (auto error = MakeFacets(parts, kChord_px * pixel_m, threads)) {
@@ -324,6 +353,7 @@ Result<Scene> SceneAlong(const model::RenderRequest& request, int threads) {
   }
   const std::vector<PartLines> lines = LinesOf(parts, view.mode, threads);
   Scene scene;
+  scene.planes = std::move(planes);
   geom::Box box = BoxInView(parts, directions);
   std::vector<ShownPhotograph> photographs;
   if (view.photo) photographs = ShownPhotographs(request.model, BoxInWorld(parts));
@@ -338,12 +368,14 @@ Result<Scene> SceneAlong(const model::RenderRequest& request, int threads) {
   }
   const Affine picture_from_world = scene.camera.picture_from_world();
   for (const Placement& placement : parts.placements) {
+    const Part& part = parts.parts[placement.part];
     PlacementDrawer{scene,
                     view.mode,
-                    parts.parts[placement.part],
+                    part,
                     lines[placement.part],
                     placement,
-                    picture_from_world * placement.world_from_part}
+                    picture_from_world * placement.world_from_part,
+                    BorneBy(scene, part, placement, part.facets.mesh)}
         .AddAll();
   }
   for (const ShownPhotograph& shown : photographs) {
@@ -355,15 +387,16 @@ Result<Scene> SceneAlong(const model::RenderRequest& request, int threads) {
 }  // namespace
 
 Result<Scene> SceneOf(const model::RenderRequest& request, int threads) {
-  const model::ElementPtr& through = request.view.camera;
-  Result<Scene> scene =
-      through ? SceneThrough(*std::get<model::PhotographPtr>(through->geometry), request, threads)
-              : SceneAlong(request, threads);
-  if (!scene || !request.view.textured) return scene;
-  auto planes = OrthophotoPlanes(request.model, threads);
-  if (!planes) return tl::unexpected(planes.error());
-  scene->planes.insert(scene->planes.end(), planes->begin(), planes->end());
-  return scene;
+  std::vector<PicturePlane> planes;
+  if (request.view.textured) {
+    auto made = OrthophotoPlanes(request.model, threads);
+    if (!made) return tl::unexpected(made.error());
+    planes = *std::move(made);
+  }
+  const model::ElementPtr through = model::CameraOf(request.view, request.model);
+  if (!through) return SceneAlong(request, std::move(planes), threads);
+  return SceneThrough(*std::get<model::PhotographPtr>(through->geometry), request,
+                      std::move(planes), threads);
 }
 
 Vec3 Scene::InWorld(const Eigen::Vector3f& in_picture) const {

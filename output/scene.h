@@ -26,14 +26,21 @@ struct Stroke {
   int linestyle = 0;
 };
 
+// Triangles of a surface that bear a plane's picture.
+struct Borne {
+  std::size_t plane;
+  std::vector<bool> by;  // each triangle
+};
+
 // What a picture shows, ready to be traced and drawn.
 struct Scene {
   Camera camera;
-  std::vector<RaySurface> surfaces;    // in the order of elements
-  std::vector<Shade> surface_colours;  // of each surface
-  std::vector<Stroke> strokes;         // later ones over earlier ones
+  std::vector<RaySurface> surfaces;       // in the order of elements
+  std::vector<Shade> surface_colours;     // of each surface
+  std::vector<std::vector<Borne>> borne;  // likewise; what is seen first is first
+  std::vector<Stroke> strokes;            // later ones over earlier ones
   std::optional<Eye> eye;            // the viewer, where the view is through a photograph's camera
-  std::vector<PicturePlane> planes;  // what faces that lie in them show
+  std::vector<PicturePlane> planes;  // what faces in them show
   std::shared_ptr<const Picture> backdrop;  // the photograph, seen through the eye behind all
   float nearest = 0, farthest = 0;          // z of what is nearest to the viewer, and farthest
 
@@ -42,6 +49,7 @@ struct Scene {
   geom::Vec3 DirectionInWorld(const Eigen::Vector3f& direction) const;
   Eigen::Vector3f TowardsViewer(float x, float y) const;
   Eigen::Vector3f Moving(const Eigen::Vector3f& from, const Eigen::Vector3f& direction) const;
+  float PixelOfDepth(float z) const { return eye ? eye->PixelOfDepth(z) : 1; }
 };
 
 // Everything on visible levels, from the request's view. In shaded pictures surfaces have no lines.

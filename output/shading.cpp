@@ -48,17 +48,13 @@ Vector3f Shader::NormalAt(const HitPacket& hits, unsigned i, const Vector3f& tow
   return normal / (normal.dot(towards_viewer) < 0 ? -length : length);
 }
 
-Shade Shader::ColourOf(std::uint32_t surface, const Vector3f& place, const Vector3f& normal,
-                       float light) const {
-  if (!scene_.planes.empty()) {
-    const geom::Vec3 point = scene_.InWorld(place);
-    const geom::Vec3 face_normal = scene_.DirectionInWorld(normal);
-    for (const PicturePlane& plane : scene_.planes) {
-      // A photograph has its own light.
-      if (const auto shade = plane.At(point, face_normal)) return *shade;
-    }
+std::optional<Shade> Shader::PictureAt(std::uint32_t surface, std::uint32_t triangle,
+                                       const Vector3f& place) const {
+  for (const Borne& borne : scene_.borne[surface]) {
+    if (!borne.by[triangle]) continue;
+    if (auto shade = scene_.planes[borne.plane].At(scene_.InWorld(place))) return shade;
   }
-  return scene_.surface_colours[surface] * light;
+  return std::nullopt;
 }
 
 void Shader::Apply(const RayPacket& rays, const HitPacket& hits, ShadePacket& shades) const {
@@ -74,19 +70,23 @@ void Shader::Apply(const RayPacket& rays, const HitPacket& hits, ShadePacket& sh
     const Vector3f place(rays.x[i], rays.y[i], hits.z[i]);
     const Vector3f start = place + kShadowOffset_px * scene_.Moving(place, normals[i]);
     from.x[i] = start.x(), from.y[i] = start.y(), from.z[i] = start.z();
-    const Vector3f way = scene_.Moving(start, kKey);
+    const Vector3f way = scene_.Moving(start, kKey).normalized();
     to_light.x[i] = way.x(), to_light.y[i] = way.y(), to_light.z[i] = way.z();
   }
   if (shadows_) rays_.DropOccluded(from, to_light, lit);
   for (unsigned i = 0; i < kPacket; ++i) {
     if (hits.surface[i] == kNothing) continue;
+    const Vector3f place(rays.x[i], rays.y[i], hits.z[i]);
+    if (const auto shade = PictureAt(hits.surface[i], hits.triangle[i], place)) {
+      shades[i] = *shade;
+      continue;
+    }
     const float towards_key = std::max(0.0f, normals[i].dot(kKey));
     const float key = lit[i] ? towards_key : kShadowShare * towards_key;
     const float gloss = lit[i] ? kGloss * PowerOf32(std::max(0.0f, normals[i].dot(kHalfway))) : 0;
     const float fill = std::max(0.0f, normals[i].dot(kFill));
     const float light = kAmbient + kKeyShare * key + kFillShare * fill;
-    const Vector3f place(rays.x[i], rays.y[i], hits.z[i]);
-    shades[i] = ColourOf(hits.surface[i], place, normals[i], light) + Shade::Constant(gloss);
+    shades[i] = light * scene_.surface_colours[hits.surface[i]] + Shade::Constant(gloss);
   }
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "output/scene.h"
@@ -23,9 +24,10 @@ class Shader {
   // Unit, on the side that is seen.
   Eigen::Vector3f NormalAt(const HitPacket& hits, unsigned i,
                            const Eigen::Vector3f& towards_viewer) const;
-  // What lies in its plane, as it is; else its own in this light.
-  Shade ColourOf(std::uint32_t surface, const Eigen::Vector3f& place, const Eigen::Vector3f& normal,
-                 float light) const;
+  // What is seen of a picture that the face bears, which has its own light; nothing if it bears
+  // none.
+  std::optional<Shade> PictureAt(std::uint32_t surface, std::uint32_t triangle,
+                                 const Eigen::Vector3f& place) const;
 
   const Scene& scene_;
   const RayScene& rays_;

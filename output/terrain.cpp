@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "output/chance.h"
+#include "output/texture_tone.h"
 
 namespace tranos::output {
 namespace {
@@ -34,11 +35,12 @@ RayMesh TerrainOf(const geom::Box& building, const Vec3& camera, const Vec3& ori
   const double top_m = building.min.z() - kBelowBuilding_m;
   const double reach_m = 0.9 * DistanceFrom(building, camera.x(), camera.y());
   const double foot_m = reach_m > 0 ? std::min(top_m, camera.z() - kEyeHeight_m) : top_m;
+  const Vec3 pattern = PatternOrigin(origin);
   const auto height = [&](double x, double y) {
     const double away = DistanceFrom(building, x, y);
     const double slope = foot_m < top_m ? Smooth((away - 1) / std::max(reach_m - 1, 1.0)) : 0;
-    const double bump =
-        0.05 * Clouds2(11, static_cast<float>(0.3 * x), static_cast<float>(0.3 * y), 3);
+    const double bump = 0.05 * Clouds2(11, static_cast<float>(0.3 * (x - pattern.x())),
+                                       static_cast<float>(0.3 * (y - pattern.y())), 3);
     return top_m + slope * (foot_m - top_m) + Smooth((away - 0.5) / 2) * bump;
   };
   // Cells grow outward: dense where the building is.

@@ -99,6 +99,11 @@ float Pattern(Material material, const Vector3f& p, const Vector3f& n, float siz
 
 }  // namespace
 
+geom::Vec3 PatternOrigin(const geom::Vec3& middle_m) {
+  constexpr double kStep_m = 4096;
+  return kStep_m * (middle_m / kStep_m).array().round().matrix();
+}
+
 float TextureTone(Material material, const Vector3f& place_m, const Vector3f& normal,
                   float size_m) {
   if (material == Material::kGlass) return 1;

@@ -13,8 +13,8 @@ namespace {
 using Eigen::Vector2f;
 using Eigen::Vector3f;
 
-// A line that lies on a surface may be behind its facets by a little; so much, in pixels, does not
-// hide it.
+// A line that lies on a surface may be behind its facets by a little; so much, in pixels as they
+// are at that depth, does not hide it.
 constexpr float kClearance_px = 1;
 constexpr float kStep_px = 1;
 constexpr int kHalvings = 5;  // of a step, where a line disappears
@@ -26,7 +26,8 @@ struct Interval {
 // A stroke with the arc length of its projection up to each vertex.
 class MeasuredStroke {
  public:
-  explicit MeasuredStroke(const Stroke& stroke) : stroke_(stroke), at_vertex_{0} {
+  MeasuredStroke(const Stroke& stroke, const Scene& scene)
+      : stroke_(stroke), scene_(scene), at_vertex_{0} {
     for (std::size_t i = 1; i < stroke.vertices.size(); ++i) {
       const Vector3f step = stroke.vertices[i] - stroke.vertices[i - 1];
       at_vertex_.push_back(at_vertex_.back() + step.head<2>().norm());
@@ -45,7 +46,7 @@ class MeasuredStroke {
     Vector3f p = a.z() > b.z() ? a : b;
     if (extent > 1e-4f) p = a + (b - a) * ((at - segment.from) / extent);
     if (!stroke_.outward.empty()) p.head<2>() += stroke_.outward[i];
-    p.z() += kClearance_px;
+    p.z() += kClearance_px * scene_.PixelOfDepth(p.z());
     return !rays.Occluded(p, Vector3f::UnitZ());
   }
 
@@ -61,7 +62,8 @@ class MeasuredStroke {
   }
 
   // The piece between two arc lengths, in pixels from the upper left corner.
-  std::vector<Vector2f> Piece(const Interval& piece, const Camera& camera) const {
+  std::vector<Vector2f> Piece(const Interval& piece) const {
+    const Camera& camera = scene_.camera;
     const auto on_paper = [&](const Vector3f& p) {
       return Vector2f(p.x() + 0.5f * static_cast<float>(camera.width_px),
                       0.5f * static_cast<float>(camera.height_px) - p.y());
@@ -82,6 +84,7 @@ class MeasuredStroke {
 
  private:
   const Stroke& stroke_;
+  const Scene& scene_;
   std::vector<float> at_vertex_;
 };
 
@@ -132,12 +135,12 @@ std::vector<Interval> Dashes(const Interval& whole, std::vector<float> pattern, 
   return dashes;
 }
 
-std::vector<InkLine> InkOfStroke(const Stroke& stroke, const Camera& camera, const RayScene* rays) {
-  const MeasuredStroke measured(stroke);
+std::vector<InkLine> InkOfStroke(const Stroke& stroke, const Scene& scene, const RayScene* rays) {
+  const MeasuredStroke measured(stroke, scene);
   std::vector<InkLine> ink;
   for (const Interval& interval : VisibleIntervals(measured, rays)) {
     for (const Interval& dash : Dashes(interval, DashesOf(stroke.linestyle), stroke.width_px)) {
-      InkLine line{measured.Piece(dash, camera), stroke.colour, stroke.opacity, stroke.width_px};
+      InkLine line{measured.Piece(dash), stroke.colour, stroke.opacity, stroke.width_px};
       if (line.vertices.size() >= 2) ink.push_back(std::move(line));
     }
   }
@@ -169,9 +172,8 @@ std::vector<float> DashesOf(int linestyle) {
 
 std::vector<InkLine> InkOf(const Scene& scene, const RayScene* rays, int threads) {
   std::vector<std::vector<InkLine>> by_stroke(scene.strokes.size());
-  ParallelFor(scene.strokes.size(), threads, [&](std::size_t i) {
-    by_stroke[i] = InkOfStroke(scene.strokes[i], scene.camera, rays);
-  });
+  ParallelFor(scene.strokes.size(), threads,
+              [&](std::size_t i) { by_stroke[i] = InkOfStroke(scene.strokes[i], scene, rays); });
   std::vector<InkLine> ink;
   for (auto& lines : by_stroke) {
     std::move(lines.begin(), lines.end(), std::back_inserter(ink));

@@ -71,6 +71,11 @@ void JournalWriter::Add(const interp::Step& step) {
   out_.Open('{').Key("n").Integer(++steps_).Key("key_in").String(step.key_in);
   WritePlace(step);
   if (step.edit && step.edit->ChangesModel()) WriteEdit(step);
+  if (step.edit && step.edit->detection) {
+    const model::Detection& detection = *step.edit->detection;
+    out_.Key("detection").Open('{').Key("content").String(model::Hex(detection.content));
+    out_.Key("least_px").Ratio(detection.min_length_px).Close('}');
+  }
   Ids("ids", step.ids, &out_);
   out_.Key("model").String(model::Hex(step.state->model.hash));
   out_.Key("state").String(model::Hex(model::HashOf(*step.state))).Close('}').text() += '\n';

@@ -146,6 +146,7 @@ tl::expected<Journal, JournalFinding> ReadJournal(std::string_view text) {
 namespace {
 
 constexpr std::string_view kPhotographType = "\"type\":\"photograph\"";
+constexpr std::string_view kDetection = "\"detection\":";
 
 // The camera that a photograph got from a file.
 std::optional<camera::FramedCamera> CameraIn(const Json& geometry, const Eigen::Vector2i& size_px) {
@@ -157,35 +158,76 @@ std::optional<camera::FramedCamera> CameraIn(const Json& geometry, const Eigen::
   return framed;
 }
 
-// What is known of the photographs that the recorded run attached; their pixels are not needed to
-// run it again. Lines that do not say it are passed over: the replay then finds them different.
-interp::PhotographFiles PhotographsIn(std::string_view steps) {
-  interp::PhotographFiles photographs;
-  for (std::size_t at = steps.find(kPhotographType); at != std::string_view::npos;
-       at = steps.find(kPhotographType, at)) {
+// Calls f(step) for every step whose line holds this text.
+template <class F>
+void ForEachStepWith(std::string_view text, std::string_view steps, F&& f) {
+  for (std::size_t at = steps.find(text); at != std::string_view::npos; at = steps.find(text, at)) {
     const std::size_t begin = steps.rfind('\n', at) + 1;  // npos + 1 is the text's beginning
     const std::size_t end = std::min(steps.find('\n', at), steps.size());
     at = end;
     const Json step = Json::parse(steps.substr(begin, end - begin), nullptr, false);
-    if (!step.is_object() || !step.contains("edit") || !step["edit"].is_object()) continue;
-    for (const Json& element : step["edit"].value("added", Json::array())) {
-      const Json geometry = element.is_object() ? element.value("geometry", Json()) : Json();
-      const std::string *file = Text(geometry, "file"), *content = Text(geometry, "content");
-      const Json* size = Member(geometry, "size_px", Json::value_t::array);
-      if (!file || !content || !size || size->size() != 2) continue;
-      const auto hash = model::HashFromHex(*content);
-      if (!hash || !(*size)[0].is_number() || !(*size)[1].is_number()) continue;
-      const Eigen::Vector2i size_px((*size)[0].get<int>(), (*size)[1].get<int>());
-      interp::PhotographFile& known = photographs[*file];
-      if (known.size_px.x() == 0) known = {*hash, size_px, nullptr, known.camera};
-      if (const std::string* camera_file = Text(geometry, "camera_file")) {
-        // On the file's own format, unless the script always stated another.
-        auto& of_file = photographs[*camera_file].camera;
-        const bool is_own = camera::MemberOf(geometry, "format_is_stated") == false;
-        if (!of_file || is_own) of_file = CameraIn(geometry, size_px);
-      }
-    }
+    if (step.is_object() && step.contains("edit") && step["edit"].is_object()) f(step);
   }
+}
+// The geometry of each element that it added.
+std::vector<Json> AddedBy(const Json& step) {
+  std::vector<Json> added;
+  for (const Json& element : step["edit"].value("added", Json::array())) {
+    added.push_back(element.is_object() ? element.value("geometry", Json()) : Json());
+  }
+  return added;
+}
+
+void AddPhotograph(const Json& geometry, interp::PhotographFiles* photographs) {
+  const std::string *file = Text(geometry, "file"), *content = Text(geometry, "content");
+  const Json* size = Member(geometry, "size_px", Json::value_t::array);
+  if (!file || !content || !size || size->size() != 2) return;
+  const auto hash = model::HashFromHex(*content);
+  if (!hash || !(*size)[0].is_number() || !(*size)[1].is_number()) return;
+  const Eigen::Vector2i size_px((*size)[0].get<int>(), (*size)[1].get<int>());
+  interp::PhotographFile& known = photographs->by_path[*file];
+  if (known.size_px.x() == 0) known = {*hash, size_px, nullptr, known.camera};
+  if (const std::string* camera_file = Text(geometry, "camera_file")) {
+    // On the file's own format, unless the script always stated another.
+    auto& of_file = photographs->by_path[*camera_file].camera;
+    const bool is_own = camera::MemberOf(geometry, "format_is_stated") == false;
+    if (!of_file || is_own) of_file = CameraIn(geometry, size_px);
+  }
+}
+
+// The edges that a step found on a photograph.
+void AddEdges(const Json& step, interp::PhotographFiles* photographs) {
+  const Json& found_by = step["detection"];
+  const std::string* content = Text(found_by, "content");
+  const auto hash = content ? model::HashFromHex(*content) : std::nullopt;
+  const auto least_px = camera::NumberIn(camera::MemberOf(found_by, "least_px"));
+  if (!hash || !least_px) return;
+  std::vector<interp::FoundEdge> edges;
+  double noise_px = 0;
+  for (const Json& trace : AddedBy(step)) {
+    const Json& dots = camera::MemberOf(trace, "dots");
+    const auto noise = camera::NumberIn(camera::MemberOf(trace, "noise_px"));
+    if (!dots.is_array() || dots.size() != 2 || !noise) return;
+    const auto a = camera::NumbersIn(dots[0], 2), b = camera::NumbersIn(dots[1], 2);
+    if (!a || !b) return;
+    const auto samples = camera::NumberIn(camera::MemberOf(trace, "samples"));
+    edges.push_back(
+        {{geom::Vec2((*a)[0], (*a)[1]), geom::Vec2((*b)[0], (*b)[1])}, samples.value_or(0)});
+    noise_px = *noise;
+  }
+  photographs->edges[interp::EdgesKey({*hash, *least_px}, noise_px)] = std::move(edges);
+}
+
+// What is known of the photographs that the recorded run attached; their pixels are not needed to
+// run it again. Lines that do not say it are passed over: the replay then finds them different.
+interp::PhotographFiles PhotographsIn(std::string_view steps) {
+  interp::PhotographFiles photographs;
+  ForEachStepWith(kPhotographType, steps, [&](const Json& step) {
+    for (const Json& geometry : AddedBy(step)) AddPhotograph(geometry, &photographs);
+  });
+  ForEachStepWith(kDetection, steps, [&](const Json& step) {
+    if (step.contains("detection")) AddEdges(step, &photographs);
+  });
   return photographs;
 }
 

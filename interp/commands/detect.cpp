@@ -34,31 +34,54 @@ Vec2 Rounded(const Vec2& dot_px) {
 // Of each coordinate of a dot; where it is to be estimated, deviations are in units of it.
 double Unit(const Trace& trace) { return trace.noise_px > 0 ? trace.noise_px : 1; }
 
-CommandResult DetectEdges(const State& state, const Answers& answers) {
-  const auto photograph = PhotographMeant(state, answers);
-  if (!photograph) return Fail(photograph.error());
-  const auto pixels = PixelsOf(**photograph);
+// The edges of a photograph, found once in a run: what stands before `calibrate` is run again and
+// again, and a replay, which has no pixels, has them from its journal.
+tl::expected<std::vector<FoundEdge>, CommandError> EdgesOn(const model::Element& photograph,
+                                                           const model::Detection& detection,
+                                                           double noise_px,
+                                                           const Surroundings& surroundings) {
+  const std::string key = EdgesKey(detection, noise_px);
+  const auto known = surroundings.photographs.edges.find(key);
+  if (known != surroundings.photographs.edges.end()) return known->second;
+  const auto pixels = PixelsOf(photograph);
   if (!pixels) return Fail(pixels.error());
-  const auto lines = camera::DetectLines(**pixels, {.min_length_px = answers.Number("least")});
+  const auto lines = camera::DetectLines(**pixels, {.min_length_px = detection.min_length_px});
   if (!lines || lines->empty()) {
     return Fail({.code = Code::kNotCalibrated,
                  .message = fmt::format(
-                     "no straight edge is seen on {}: {}", NameForMessage(**photograph),
+                     "no straight edge is seen on {}: {}", NameForMessage(photograph),
                      lines ? "nothing in it is straight for long enough" : lines.error().detail),
                  .help = "`trace edge` says where they are"});
   }
-  Fired fired;
+  std::vector<FoundEdge> edges;
   for (const camera::ImageLine& line : *lines) {
+    edges.push_back({{Rounded(line.a_px), Rounded(line.b_px)},
+                     double{1} * camera::SamplesOf(line, noise_px > 0 ? noise_px : 1)});
+  }
+  return surroundings.photographs.edges.emplace(key, std::move(edges)).first->second;
+}
+
+CommandResult DetectEdges(const State& state, const Answers& answers,
+                          const Surroundings& surroundings) {
+  const auto photograph = TracedPhotograph(state, answers);
+  if (!photograph) return Fail(photograph.error());
+  const double noise_px = state.drawing.settings->noise_px;
+  const model::Detection detection{PhotographOf(**photograph).content, answers.Number("least")};
+  const auto edges = EdgesOn(**photograph, detection, noise_px, surroundings);
+  if (!edges) return Fail(edges.error());
+  Fired fired;
+  fired.edit.detection = detection;
+  for (const FoundEdge& edge : *edges) {
     Trace trace{.kind = Kind::kDirection, .axis = camera::kNoAxis};
     trace.photograph = (*photograph)->id;
-    trace.dots_px = {Rounded(line.a_px), Rounded(line.b_px)};
+    trace.dots_px.assign(edge.ends_px.begin(), edge.ends_px.end());
     trace.facade = kMainFacade;
-    trace.noise_px = state.drawing.settings->noise_px;
-    trace.samples = camera::SamplesOf(line, Unit(trace));
+    trace.noise_px = noise_px;
+    trace.samples = edge.samples;
     fired.edit.added.push_back(NewElement(state, std::make_shared<const Trace>(std::move(trace))));
   }
   fired.messages.push_back(
-      fmt::format("{} edges on {}", lines->size(), NameForMessage(**photograph)));
+      fmt::format("{} edges on {}", edges->size(), NameForMessage(**photograph)));
   return fired;
 }
 
@@ -132,7 +155,7 @@ std::string Summary(std::size_t all, const std::array<int, 3>& counts, const Ele
 }
 
 CommandResult DetectVanishingPoints(const State& state, const Answers& answers) {
-  const auto photograph = PhotographMeant(state, answers);
+  const auto photograph = TracedPhotograph(state, answers);
   if (!photograph) return Fail(photograph.error());
   const Edges edges = EdgesOf(state, (*photograph)->id);
   if (edges.lines.empty()) {
@@ -209,7 +232,7 @@ constexpr Command kCommands[] = {
      .summary = "Finds the straight edges of a photograph, each a `trace line`.",
      .keys = kEdgeKeys,
      .examples = kEdgeExamples,
-     .execute = DetectEdges,
+     .execute_with = DetectEdges,
      .informs = true},
     {.words = "detect vanishing points",
      .family = "photograph",
@@ -222,6 +245,10 @@ constexpr Command kCommands[] = {
 };
 
 }  // namespace
+
+std::string EdgesKey(const model::Detection& detection, double noise_px) {
+  return fmt::format("{} {} {}", model::Hex(detection.content), detection.min_length_px, noise_px);
+}
 
 std::span<const Command> DetectCommands() { return kCommands; }
 

@@ -135,7 +135,9 @@ std::optional<CommandError> NothingToMove(const Answers& answers) {
         .code = Code::kWrongElement,
         .message = fmt::format("{} has {}no place in space to be changed", NameForMessage(element),
                                is_group ? "traces, with " : ""),
-        .help = "attach or trace it again; `step camera` moves a camera",
+        .help = std::holds_alternative<model::OrthophotoPtr>(element.geometry)
+                    ? "`construct orthophoto` makes another, of another facade or extent"
+                    : "attach or trace it again; `step camera` moves a camera",
         .where = {Where::kChosen, static_cast<int>(i), {}}};
   }
   return NothingChosen(answers);

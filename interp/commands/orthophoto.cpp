@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "camera/facade_view.h"
@@ -10,6 +11,7 @@
 #include "interp/commands/families.h"
 #include "interp/commands/firing.h"
 #include "interp/commands/photographs.h"
+#include "model/faces.h"
 #include "model/orthophoto.h"
 
 namespace tranos::interp {
@@ -48,21 +50,33 @@ void AddTraces(const State& state, const model::Element& photograph, const std::
   });
 }
 
-// What is built and comes as near to the plane as `tolerance_m`.
-void AddBuilt(const State& state, const Frame& plane, double tolerance_m, Extent* extent) {
+// The faces that bear what lies in the plane.
+void AddBearing(const State& state, const Frame& plane, double tolerance_m, Extent* extent) {
+  const geom::Affine plane_from_world = plane.WorldFromFrame().inverse();
   state.model.ForEach([&](const ElementPtr& element) {
-    if (!model::IsBuilt(*element) || !state.model.LevelIsOn(element->attributes->level)) return;
-    const geom::Box box = model::BoundingBox(*element);
-    if (box.empty()) return;
-    geom::Box on_plane;
-    for (int corner = 0; corner < 8; ++corner) {
-      on_plane.Add(plane.ToLocal({corner & 1 ? box.max.x() : box.min.x(),
-                                  corner & 2 ? box.max.y() : box.min.y(),
-                                  corner & 4 ? box.max.z() : box.min.z()}));
-    }
-    if (on_plane.min.z() > tolerance_m || on_plane.max.z() < -tolerance_m) return;
-    extent->extend(on_plane.min.head<2>().eval());
-    extent->extend(on_plane.max.head<2>().eval());
+    model::ForEachLeaf(
+        *element, [&](const model::Element& leaf, const geom::Affine& world_from_leaf,
+                      const model::Attributes& attributes) {
+          if (!model::HasFaces(leaf) || !state.model.LevelIsOn(attributes.level)) return;
+          const geom::Box box =
+              geom::Carried(model::BoundingBox(leaf), plane_from_world * world_from_leaf);
+          if (box.empty() || box.min.z() > tolerance_m || box.max.z() < -tolerance_m) return;
+          const auto mesh = model::FacesOf(leaf, leaf.tolerance);
+          if (!mesh) return;
+          const Eigen::Matrix3d world_from_normal = world_from_leaf.linear().inverse().transpose();
+          for (const auto& triangle : mesh->triangles) {
+            std::array<Vec3, 3> corners;
+            for (std::size_t i = 0; i < 3; ++i) {
+              corners[i] = world_from_leaf * mesh->positions[triangle[i]];
+            }
+            const Vec3 outward = model::HasOutside(leaf)
+                                     ? Vec3(world_from_normal * mesh->normals[triangle[0]])
+                                     : Vec3(Vec3::Zero());
+            if (!model::Bears(corners, outward, plane, tolerance_m)) continue;
+            for (const Vec3& corner : corners)
+              extent->extend(plane.ToLocal(corner).head<2>().eval());
+          }
+        });
   });
 }
 
@@ -73,7 +87,7 @@ tl::expected<Extent, CommandError> ExtentOf(const State& state, const Answers& a
   for (const Vec3& corner : answers.points) extent.extend(plane.ToLocal(corner).head<2>().eval());
   if (answers.points.empty()) {
     AddTraces(state, photograph, answers.Text("facade"), dot_from_plane, &extent);
-    AddBuilt(state, plane, tolerance_m, &extent);
+    AddBearing(state, plane, tolerance_m, &extent);
   }
   if (!extent.isEmpty() && extent.sizes().minCoeff() > geom::kCoincident_m) return extent;
   return Fail({.code = Code::kMissingValue,
@@ -99,11 +113,12 @@ tl::expected<Eigen::Vector2i, CommandError> SizeOver(const Extent& extent, doubl
                .where = AtKey("pixel")});
 }
 
-// From which side, and how squarely, the camera sees the plane.
+// From which side, and how squarely, the camera sees the plane, there where it sees it best.
 std::optional<CommandError> NotSeen(const Frame& plane, const Vec3& camera_m,
-                                    const std::string& facade, const Vec2& middle_m) {
-  const Vec3 to_camera = camera_m - plane.ToWorld({middle_m.x(), middle_m.y(), 0});
-  const double sine = plane.z().dot(to_camera) / to_camera.norm();
+                                    const std::string& facade, const Extent& extent) {
+  const Vec3 camera = plane.ToLocal(camera_m);
+  const Vec2 nearest = camera.head<2>().cwiseMax(extent.min()).cwiseMin(extent.max());
+  const double sine = camera.z() / std::hypot((camera.head<2>() - nearest).norm(), camera.z());
   if (sine > kEdgeOn) return std::nullopt;
   if (sine < -kEdgeOn) {
     return CommandError{
@@ -139,34 +154,39 @@ std::vector<double> Sampling(const Extent& extent, const Mat3& dot_from_plane,
   return lengths_m;
 }
 
+// An error if the key's length is not within these.
+std::optional<CommandError> NoLength(std::string_view key, double length_m, double least_m,
+                                     double most_m, std::string_view help) {
+  if (length_m >= least_m && length_m <= most_m) return std::nullopt;
+  return CommandError{
+      .code = Code::kOutOfRange,
+      .message = fmt::format("`{}` is a length from {:g} m to {:g} m", key, least_m, most_m),
+      .help = std::string(help),
+      .where = AtKey(key)};
+}
+
 CommandResult ConstructOrthophoto(const State& state, const Answers& answers) {
-  const std::string file = answers.Text("file");
-  if (answers.Has("file") && (file.size() <= 4 || !file.ends_with(".png"))) {
-    return Fail({.code = Code::kUnknownFormat,
-                 .message = fmt::format("`{}` names no known format", Printable(file)),
-                 .label = "an orthophoto is written as png",
-                 .where = AtKey("file")});
-  }
+  if (auto error = NotPng(answers, "an orthophoto")) return Fail(*std::move(error));
   Orthophoto made;
   made.facade = answers.Text("facade");
   const auto facade = FacadeNamed(state, made.facade, AtKey("facade"));
   if (!facade) return Fail(facade.error());
-  const auto photograph = PhotographAt(state, answers, "photo");
+  const auto photograph = CameraAt(state, answers, "photo");
   if (!photograph) return Fail(photograph.error());
   const model::Photograph& taken = PhotographOf(**photograph);
-  if (!model::HasCamera(taken)) return Fail(NoCameraYet(**photograph));
   made.photograph = *photograph;
   auto pixels = PixelsOf(**photograph);
   // A replay has no pixels.
-  if (!pixels && pixels.error().code != Code::kCannotRead) return Fail(pixels.error());
+  if (!pixels && pixels.error().code != Code::kCannotRead) {
+    if (answers.Has("photo")) pixels.error().where = AtKey("photo");
+    return Fail(pixels.error());
+  }
   if (pixels) made.pixels = *std::move(pixels);
   made.pixel_m = answers.Number("pixel");
   made.tolerance_m = answers.Number("tolerance", kTolerance_m);
-  if (!(made.pixel_m >= 1e-5 && made.pixel_m <= 1e4) || !(made.tolerance_m >= 1e-6)) {
-    return Fail({.code = Code::kOutOfRange,
-                 .message = "a pixel and the tolerance are lengths above zero",
-                 .help = "pixel=1cm tolerance=2cm",
-                 .where = AtKey(answers.Has("tolerance") ? "tolerance" : "pixel")});
+  if (auto error = NoLength("pixel", made.pixel_m, 1e-5, 1e4, "pixel=1cm")) return Fail(*error);
+  if (auto error = NoLength("tolerance", made.tolerance_m, 1e-6, 1e4, "tolerance=2cm")) {
+    return Fail(*error);
   }
   const Frame& plane = model::FacadeOf(**facade).plane;
   const Mat3 dot_from_plane = camera::DotFromPlane(taken.estimate->camera, taken.frame, plane);
@@ -175,8 +195,7 @@ CommandResult ConstructOrthophoto(const State& state, const Answers& answers) {
   if (!extent) return Fail(extent.error());
   const auto size_px = SizeOver(*extent, made.pixel_m);
   if (!size_px) return Fail(size_px.error());
-  if (auto error =
-          NotSeen(plane, taken.estimate->camera.position_m(), made.facade, extent->center())) {
+  if (auto error = NotSeen(plane, taken.estimate->camera.position_m(), made.facade, *extent)) {
     return Fail(*error);
   }
   const std::vector<double> sampling_m = Sampling(*extent, dot_from_plane, taken.frame);
@@ -190,8 +209,8 @@ CommandResult ConstructOrthophoto(const State& state, const Answers& answers) {
   made.sampling_m = sampling_m[sampling_m.size() / 2];
   made.plane = plane;
   made.plane.origin = plane.ToWorld({extent->min().x(), extent->min().y(), 0});
-  made.standing = std::make_shared<const model::Model>(state.model);
-  const bool is_written = !file.empty() && made.pixels;
+  made.standing = std::make_shared<const model::Model>(model::Apart(state.model));
+  const bool is_written = answers.Has("file") && made.pixels;
   const std::string told = fmt::format(
       "orthophoto of {}: {} × {} px of {}; a pixel of the photograph covers {} to {} of it, {} in "
       "the middle",
@@ -203,7 +222,8 @@ CommandResult ConstructOrthophoto(const State& state, const Answers& answers) {
   const auto shared = std::make_shared<const Orthophoto>(std::move(made));
   Fired fired = *Make(state, shared);
   fired.messages.push_back(told);
-  if (is_written) fired.edit.outputs.emplace_back(model::OrthophotoRequest{shared, file});
+  if (is_written)
+    fired.edit.outputs.emplace_back(model::OrthophotoRequest{shared, answers.Text("file")});
   return fired;
 }
 

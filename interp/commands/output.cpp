@@ -10,6 +10,7 @@
 
 namespace tranos::interp {
 
+using model::ElementPtr;
 using model::State;
 
 namespace {
@@ -49,6 +50,13 @@ std::optional<std::pair<int, int>> SizeOf(const model::Value& value) {
 
 CommandResult Render(const State& state, const Answers& answers) {
   model::RenderRequest request{state.model, *state.drawing.view, answers.Text("file")};
+  if (request.view.camera != model::kNoElement && !model::CameraOf(request.view, request.model)) {
+    const ElementPtr gone = state.model.Current(request.view.camera);
+    if (gone) return Fail(NoCameraYet(*gone));
+    return Fail({.code = Code::kNoLongerThere,
+                 .message = "the camera that the view is through was deleted",
+                 .help = "`view camera` with another, or `view iso`"});
+  }
   if (!request.file.empty() && Extension(request.file) != "png") {
     return Fail(UnknownFormat(request.file, "png"));
   }
@@ -58,11 +66,12 @@ CommandResult Render(const State& state, const Answers& answers) {
       return Fail(
           {.code = Code::kOutOfRange,
            .message = fmt::format("a picture is 1 to {} pixels wide and high", kWidestPicture_px),
+           .help = "render size=1280,960",
            .where = {Where::kKey, 0, "size"}});
     }
     std::tie(request.width_px, request.height_px) = *size_px;
-  } else if (request.view.camera) {
-    const Eigen::Vector2i size_px = PhotographOf(*request.view.camera).frame.size_px;
+  } else if (const auto through = model::CameraOf(request.view, request.model)) {
+    const Eigen::Vector2i size_px = PhotographOf(*through).frame.size_px;
     if (size_px.maxCoeff() > kWidestPicture_px) {
       return Fail(
           {.code = Code::kOutOfRange,
@@ -101,10 +110,9 @@ std::optional<model::CameraFormat> CameraFormatOf(const std::string& extension,
 }
 
 CommandResult ExportCamera(const State& state, const Answers& answers, model::CameraFormat format) {
-  const auto found = PhotographAt(state, answers, "camera");
+  const auto found = CameraAt(state, answers, "camera");
   if (!found) return Fail(found.error());
   const model::Photograph& photograph = PhotographOf(**found);
-  if (!model::HasCamera(photograph)) return Fail(NoCameraYet(**found));
   model::CameraRequest request{*found, nullptr, format, answers.Text("file")};
   const bool is_stated = model::IsStatedCamera(photograph);
   if (is_stated && format == model::CameraFormat::kFspyProject) {

@@ -85,7 +85,7 @@ camera::FramedCamera AsJournalsKeepIt(camera::FramedCamera framed) {
 // run.
 tl::expected<PhotographFile, CommandError> ReadPhotograph(const std::string& file,
                                                           const Surroundings& surroundings) {
-  PhotographFile& known = surroundings.photographs[file];
+  PhotographFile& known = surroundings.photographs.by_path[file];
   if (known.size_px.x() > 0) return known;
   auto bytes = Read(file, "file", surroundings);
   if (!bytes) return Fail(bytes.error());
@@ -109,7 +109,7 @@ tl::expected<PhotographFile, CommandError> ReadPhotograph(const std::string& fil
 // The camera in a file that `camera=` names.
 tl::expected<camera::FramedCamera, CommandError> ReadCamera(const std::string& file,
                                                             const Surroundings& surroundings) {
-  PhotographFile& known = surroundings.photographs[file];
+  PhotographFile& known = surroundings.photographs.by_path[file];
   if (known.camera) return *known.camera;
   const auto bytes = Read(file, "camera", surroundings);
   if (!bytes) return Fail(bytes.error());

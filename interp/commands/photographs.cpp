@@ -45,9 +45,50 @@ tl::expected<ElementPtr, CommandError> PhotographAt(const model::State& state,
                  .where = AtKey(key)});
   }
   if (ElementPtr active = state.model.Current(state.drawing.photograph)) return active;
+  if (key == "camera") {
+    return Fail({.code = Code::kNoPhotograph,
+                 .message = "which camera? None was set, and no photograph is attached",
+                 .help =
+                     "place camera f=35mm format=36mm,24mm size=1200,800 xy=9,-14,1.6 as paper, "
+                     "then camera=paper"});
+  }
   return Fail({.code = Code::kNoPhotograph,
                .message = "there is no photograph yet",
                .help = "attach photo \"fire_1917.png\" format=40.5mm,26.7mm as fire"});
+}
+
+tl::expected<ElementPtr, CommandError> TracedPhotograph(const model::State& state,
+                                                        const Answers& answers) {
+  auto meant = PhotographMeant(state, answers);
+  if (!meant || PhotographOf(**meant).attached || model::IsStatedCamera(PhotographOf(**meant))) {
+    return meant;
+  }
+  const std::string name = NameForMessage(**meant);
+  return Fail({.code = Code::kNoPhotograph,
+               .message = fmt::format("{} is taken, and not attached yet: nothing would go by what "
+                                      "is said of it",
+                                      name),
+               .help = fmt::format("attach photo {} as NAME",
+                                   (*meant)->name ? Printable(*(*meant)->name) : "p"),
+               .where = answers.Has("photo") ? AtKey("photo") : Where{}});
+}
+
+tl::expected<ElementPtr, CommandError> CameraAt(const model::State& state, const Answers& answers,
+                                                std::string_view key) {
+  auto found = PhotographAt(state, answers, key);
+  if (!found || model::HasCamera(PhotographOf(**found))) return found;
+  CommandError error = NoCameraYet(**found);
+  if (answers.Has(key)) error.where = AtKey(key);
+  return Fail(std::move(error));
+}
+
+std::optional<CommandError> NotPng(const Answers& answers, std::string_view what) {
+  const std::string file = answers.Text("file");
+  if (!answers.Has("file") || (file.size() > 4 && file.ends_with(".png"))) return std::nullopt;
+  return CommandError{.code = Code::kUnknownFormat,
+                      .message = fmt::format("`{}` names no known format", Printable(file)),
+                      .label = fmt::format("{} is written as png", what),
+                      .where = AtKey("file")};
 }
 
 tl::expected<ElementPtr, CommandError> PhotographMeant(const model::State& state,
@@ -83,6 +124,11 @@ tl::expected<camera::PhotoPtr, CommandError> PixelsOf(const model::Element& phot
   }
   const auto pixels = taken.picture->Pixels();
   if (pixels) return *pixels;
+  if (taken.file.empty()) {
+    return Fail({.code = Code::kNoPhotograph,
+                 .message = fmt::format("{} cannot be taken: {}", NameForMessage(photograph),
+                                        pixels.error().detail)});
+  }
   return Fail({.code = Code::kNoPhotograph,
                .message = fmt::format("{} cannot be read to its end: {}",
                                       NameForMessage(photograph), pixels.error().detail),

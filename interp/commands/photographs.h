@@ -18,6 +18,14 @@ tl::expected<model::ElementPtr, CommandError> PhotographMeant(const model::State
 tl::expected<model::ElementPtr, CommandError> PhotographAt(const model::State& state,
                                                            const Answers& answers,
                                                            std::string_view key);
+// As PhotographAt, with a camera whose every number is known.
+tl::expected<model::ElementPtr, CommandError> CameraAt(const model::State& state,
+                                                       const Answers& answers,
+                                                       std::string_view key);
+// As PhotographMeant, of one that `calibrate` finds the camera of, or whose camera is stated: what
+// is said of a rendered one before it is attached would have no part in anything.
+tl::expected<model::ElementPtr, CommandError> TracedPhotograph(const model::State& state,
+                                                               const Answers& answers);
 const model::Photograph& PhotographOf(const model::Element& element);
 model::ElementPtr WithPhotograph(const model::Element& element, model::Photograph photograph);
 CommandError NoCameraYet(const model::Element& photograph);
@@ -28,6 +36,8 @@ std::optional<CommandError> OutsidePhotograph(const camera::Frame& frame, const 
 // The warning of a dot outside the photograph by less than that.
 std::optional<CommandError> JustOutsidePhotograph(const camera::Frame& frame,
                                                   const geom::Vec2& dot_px);
+// An error where file= is given and names no png; `what` is written as one: "an orthophoto".
+std::optional<CommandError> NotPng(const Answers& answers, std::string_view what);
 // What is seen on a photograph: upright, 8 bits a channel, the same object however often it is
 // asked for in a run. Errors: kNoPhotograph (a stated camera, a damaged file), kCannotRead (a
 // replay, which has no pixels).

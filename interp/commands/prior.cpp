@@ -116,7 +116,7 @@ std::optional<CommandError> SetPrior(std::string_view key, const Value& value,
 
 CommandResult StatePrior(const State& state, const Answers& answers,
                          const Surroundings& surroundings) {
-  const auto found = PhotographMeant(state, answers);
+  const auto found = TracedPhotograph(state, answers);
   if (!found) return Fail(found.error());
   model::Photograph changed = PhotographOf(**found);
   if (!changed.attached) {

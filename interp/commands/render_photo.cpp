@@ -58,6 +58,19 @@ tl::expected<model::PrintEffects, CommandError> EffectsOf(const Answers& answers
   return effects;
 }
 
+// Whether every dot of the frame is of one direction: a lens that folds does so first at the place
+// that is farthest from its centre, which is a corner. Samples reach a little over the border.
+bool IsWithinLens(const camera::Distortion& distortion, const camera::Frame& frame) {
+  constexpr double kOver_px = 4;
+  const geom::Vec2 size = frame.size_px.cast<double>().array() + 2 * kOver_px;
+  for (const geom::Vec2& corner :
+       {geom::Vec2(0, 0), geom::Vec2(1, 0), geom::Vec2(0, 1), geom::Vec2(1, 1)}) {
+    const geom::Vec2 dot_px = corner.cwiseProduct(size).array() - 0.5 - kOver_px;
+    if (!camera::UndistortDot(distortion, frame, dot_px)) return false;
+  }
+  return true;
+}
+
 // k1, or k1 and k2, about the principal point in units of half the frame's diagonal.
 tl::expected<camera::Distortion, CommandError> DistortionOf(const Answers& answers,
                                                             const PhotoRequest& request) {
@@ -73,7 +86,14 @@ tl::expected<camera::Distortion, CommandError> DistortionOf(const Answers& answe
   double* const terms[] = {&distortion.k1, &distortion.k2};
   for (std::size_t i = 0; i < std::min<std::size_t>(count, 2); ++i) *terms[i] = number(i);
   const double strongest = std::max(std::abs(distortion.k1), std::abs(distortion.k2));
-  if (count >= 1 && count <= 2 && strongest <= kStrongestDistortion) return distortion;
+  if (count >= 1 && count <= 2 && strongest <= kStrongestDistortion) {
+    if (IsWithinLens(distortion, request.frame)) return distortion;
+    return Fail({.code = Code::kOutOfRange,
+                 .message = "this distortion would fold the picture over in a corner of the frame",
+                 .label = "it moves nearer to the centre what is farther from it",
+                 .help = "a weaker one, or a second term against the first: distortion=-0.3,0.1",
+                 .where = AtKey("distortion")});
+  }
   return Fail(
       {.code = Code::kOutOfRange,
        .message = fmt::format("the distortion is k1, or k1 and k2: the shares, up to {}, by "
@@ -116,6 +136,7 @@ std::optional<CommandError> SetSize(const Answers& answers, PhotoRequest& reques
       return CommandError{
           .code = Code::kOutOfRange,
           .message = fmt::format("a photograph has 1 to {:.0f} million pixels", kMostPixels / 1e6),
+          .help = "size=6000,4000",
           .where = AtKey("size")};
     }
     request.frame.size_px = {static_cast<int>(width), static_cast<int>(height)};
@@ -130,10 +151,9 @@ std::optional<CommandError> SetSize(const Answers& answers, PhotoRequest& reques
 }
 
 tl::expected<PhotoRequest, CommandError> RequestOf(const State& state, const Answers& answers) {
-  const auto taken = PhotographAt(state, answers, "camera");
+  const auto taken = CameraAt(state, answers, "camera");
   if (!taken) return Fail(taken.error());
   const model::Photograph& photograph = PhotographOf(**taken);
-  if (!model::HasCamera(photograph)) return Fail(NoCameraYet(**taken));
   PhotoRequest request{.model = state.model,
                        .taken = *taken,
                        .camera = photograph.estimate->camera,
@@ -155,45 +175,47 @@ tl::expected<PhotoRequest, CommandError> RequestOf(const State& state, const Ans
   return request;
 }
 
-// Its pixels, taken once in a run: what stands before `calibrate` is run again and again.
-tl::expected<PhotographFile, CommandError> Taken(const PhotoRequest& request,
-                                                 const Surroundings& surroundings) {
-  const model::Hash128 hash = model::HashOf(request);
-  const std::string key = "render photo " + model::Hex(hash);
-  const auto known = surroundings.photographs.find(key);
-  if (known != surroundings.photographs.end()) return known->second;
-  PhotographFile taken{hash, request.frame.size_px};
-  if (surroundings.host.render_photo) {
-    const auto pixels = surroundings.host.render_photo(request);
-    if (!pixels) {
-      return Fail({.code = Code::kNoPhotograph,
-                   .message = "the photograph cannot be taken: " + pixels.error()});
-    }
-    taken.picture = std::make_shared<const camera::PhotoFile>(*pixels);
-  }
-  return surroundings.photographs.emplace(key, std::move(taken)).first->second;
+// What taking it costs, in steps of a run: the ground and the light at least, and its pixels.
+std::uint64_t StepsOf(const PhotoRequest& request) {
+  constexpr std::uint64_t kLeast = 20'000, kPixelsAStep = 8;
+  return kLeast +
+         static_cast<std::uint64_t>(request.frame.size_px.cast<double>().prod()) / kPixelsAStep;
+}
+
+// The photograph, which is taken once its pixels are asked for, and once in a run: what stands
+// before `calibrate` is run again and again.
+PhotographFile Taken(const std::shared_ptr<const PhotoRequest>& request,
+                     const Surroundings& surroundings) {
+  const model::Hash128 hash = model::HashOf(*request);
+  const auto [known, is_new] = surroundings.photographs.taken.try_emplace(hash);
+  if (!is_new) return known->second;
+  surroundings.charge(StepsOf(*request));
+  known->second = {hash, request->frame.size_px};
+  if (!surroundings.host.render_photo) return known->second;  // a replay
+  const auto take = [request,
+                     render = surroundings.host.render_photo]() -> geom::Result<camera::PhotoPtr> {
+    auto pixels = render(*request);
+    if (pixels) return *std::move(pixels);
+    return tl::unexpected(geom::Error{geom::ErrorCode::kTooLarge, pixels.error()});
+  };
+  known->second.picture = std::make_shared<const camera::PhotoFile>(take);
+  return known->second;
 }
 
 CommandResult RenderPhoto(const State& state, const Answers& answers,
                           const Surroundings& surroundings) {
-  const std::string file = answers.Text("file");
-  if (answers.Has("file") && (file.size() <= 4 || !file.ends_with(".png"))) {
-    return Fail({.code = Code::kUnknownFormat,
-                 .message = fmt::format("`{}` names no known format", Printable(file)),
-                 .label = "a photograph is written as png",
-                 .where = AtKey("file")});
-  }
+  if (auto error = NotPng(answers, "a photograph")) return Fail(*std::move(error));
   const auto request = RequestOf(state, answers);
   if (!request) return Fail(request.error());
-  const auto taken = Taken(*request, surroundings);
-  if (!taken) return Fail(taken.error());
-  model::Photograph photograph{.file = "", .content = taken->content, .picture = taken->picture};
+  const auto shared = std::make_shared<const PhotoRequest>(*request);
+  const PhotographFile taken = Taken(shared, surroundings);
+  model::Photograph photograph{.file = "", .content = taken.content, .picture = taken.picture};
   photograph.format_is_stated = false;
-  photograph.frame = camera::FrameOfPixels(taken->size_px);
+  photograph.frame = camera::FrameOfPixels(taken.size_px);
   Fired fired = *Make(state, std::make_shared<const model::Photograph>(std::move(photograph)));
-  if (!file.empty() && taken->picture) {
-    fired.edit.outputs.emplace_back(model::PhotoFileRequest{
-        std::make_shared<const PhotoRequest>(*request), *taken->picture->Pixels(), file});
+  if (answers.Has("file") && taken.picture) {
+    fired.edit.outputs.emplace_back(
+        model::PhotoFileRequest{shared, taken.picture, answers.Text("file")});
   }
   return fired;
 }

@@ -56,7 +56,7 @@ std::vector<CommandError> WarningsOfDots(const Answers& answers, const camera::F
 }
 
 CommandResult MakeTrace(const State& state, const Answers& answers, Trace trace, std::size_t dots) {
-  const auto photograph = PhotographMeant(state, answers.Has("photo") ? answers : Answers{});
+  const auto photograph = TracedPhotograph(state, answers.Has("photo") ? answers : Answers{});
   if (!photograph) return Fail(photograph.error());
   const camera::Frame& frame = PhotographOf(**photograph).frame;
   const std::size_t group = trace.kind == Kind::kRatio ? 2 : answers.points.size();

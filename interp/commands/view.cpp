@@ -15,7 +15,7 @@ using model::State;
 
 namespace {
 
-constexpr std::string_view kModes = "wireframe|hidden|phong";
+constexpr std::string_view kModes = "wireframe|hidden|phong|textured";
 constexpr std::string_view kLaterStyles = "evidence|sky";
 
 CommandError WrongWords(std::string message, std::string help) {
@@ -38,7 +38,11 @@ CommandResult SetView(const State& state, const Answers& answers) {
     }
     modes += HasWord(kModes, word) ? 1 : 0;
   }
-  if (modes > 1) return Fail(WrongWords("a view has one mode", "wireframe, hidden or phong"));
+  // What is textured is shaded: `phong textured` says it twice.
+  if (view.textured && answers.HasWord("phong")) --modes;
+  if (modes > 1) {
+    return Fail(WrongWords("a view has one mode", "wireframe, hidden, phong or textured"));
+  }
   if (answers.words.empty()) {
     return Fail(WrongWords("how is the view to look?", "set view phong antialias"));
   }
@@ -57,7 +61,7 @@ CommandResult TurnView(const State& state, const Answers& answers) {
     return Fail(WrongWords("a view is from one side", "front, right, left, back, top or iso"));
   }
   model::View view = *state.drawing.view;
-  view.camera = nullptr;
+  view.camera = model::kNoElement;
   for (const std::string& direction : SplitWords(kDirections)) {
     if (answers.HasWord(direction)) view.direction = direction;
   }
@@ -69,10 +73,9 @@ CommandResult TurnView(const State& state, const Answers& answers) {
 CommandResult ViewThroughCamera(const State& state, const Answers& answers) {
   const auto photograph = PhotographMeant(state, answers);
   if (!photograph) return Fail(photograph.error());
-  const model::Photograph& taken = PhotographOf(**photograph);
-  if (!model::HasCamera(taken)) return Fail(NoCameraYet(**photograph));
+  if (!model::HasCamera(PhotographOf(**photograph))) return Fail(NoCameraYet(**photograph));
   model::View view = *state.drawing.view;
-  view.camera = *photograph;
+  view.camera = (*photograph)->id;
   Fired fired;
   fired.edit.view = view;
   return fired;

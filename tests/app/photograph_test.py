@@ -192,8 +192,43 @@ class Photograph(harness.ProgramTest):
     def test_folded_photograph_is_refused(self):
         ran = self.run_script("place camera f=35mm format=36mm,24mm size=48,32 xy=0,-20,2 as paper\n"
                               "render photo camera=paper distortion=[-0.3, -0.3] as p\n")
-        self.assertEqual(ran.codes(), ["E0901"])
+        self.assertEqual(ran.codes(), ["E0212"])
         self.assertIn("fold", ran.err)
+
+    def test_edges_that_were_found_replay_without_pixels(self):
+        """Those of a file, of another length and noise, and those of a photograph of the model."""
+        shutil.copy(GOLDENS / "house.png", self.folder)
+        text = ('attach photo "house.png" as house\n'
+                "detect edges as all\nchoose element of=all; delete\n"
+                "detect edges least=40 as long\nnoise=1px\ndetect edges least=60 as longer\n"
+                "detect vanishing points\n"
+                "place slab length=8m width=6m height=5m xy=0,0,0\n"
+                "place camera f=33mm format=40mm,27mm size=484,319 omega=8deg phi=20deg xy=9,-14,2 as paper\n"
+                "render photo camera=paper as p\nattach photo p format=40mm,27mm as rendered\n"
+                "detect edges as edges\n"
+                'print "{len(edges)}"\n')
+        text = text.replace("choose element of=all; delete\n", "delete of=all\n")
+        ran = self.run_script(text, "--journal", "journal.jsonl")
+        self.assertEqual(ran.status, 0, ran.err)
+        (self.folder / "house.png").unlink()
+        replayed = self.tranos("replay", "journal.jsonl")
+        self.assertEqual(replayed.status, 0, replayed.err)
+        self.assertRegex(replayed.out, r"steps, equal\n")
+
+    def test_a_photograph_of_what_is_solved_for_is_taken_once(self):
+        """While `calibrate` tries heights it is asked for by nobody; what is written shows the height found."""
+        at_once = SCRIPT.replace("calibrate", "render photo camera=paper size=48,32 file=\"p.png\"\ncalibrate", 1)
+        at_once = "place camera f=33mm format=36mm,24mm size=48,32 phi=20deg xy=30,-24,2 as paper\n" + at_once
+        at_once = at_once.replace("render photo", "place slab length=10m width=14m height=height xy=0,0,0\nrender photo", 1)
+        ran = self.run_script(at_once)
+        self.assertEqual(ran.status, 0, ran.err)
+        before = (self.folder / "out/p.png").read_bytes()
+        stated = self.run_script(
+            "place camera f=33mm format=36mm,24mm size=48,32 phi=20deg xy=30,-24,2 as paper\n"
+            "place slab length=10m width=14m height=7.5m xy=0,0,0\n"
+            'render photo camera=paper size=48,32 file="q.png"\n')
+        self.assertEqual(stated.status, 0, stated.err)
+        self.assertEqual(len(before) // 100, len((self.folder / "out/q.png").read_bytes()) // 100)
 
     def test_runs_the_same_from_another_folder(self):
         first = self.report_of(SCRIPT, "--no-output")

@@ -23,7 +23,7 @@ ScriptResult RunBounded(std::string text) {
   const Host host{
       [](std::string_view) -> tl::expected<std::string, HostError> { return std::string(); }, {}};
   // And one photograph is known, so that what is traced on it can be calibrated.
-  const PhotographFiles photographs{{"facade.png", {{}, {1600, 1067}}}};
+  const PhotographFiles photographs{{{"facade.png", {{}, {1600, 1067}}}}, {}, {}};
   return RunScript("fuzz.trn", std::move(text), {{}, {}, limits.depth},
                    {limits, {}, {}, photographs}, host);
 }

@@ -141,6 +141,81 @@ TEST(Gltf, HiddenLevelsStayOut) {
   EXPECT_TRUE(ReadBack(*GlbOf(model, {})).nodes[0].children.empty());
 }
 
+model::ElementPtr PhotographOn(const char* level) {
+  camera::Estimate estimate;
+  estimate.camera.parameters << 36, 1, 0, 0, geom::kPi / 2, 0, 0, 0, 0, -10, 2;
+  model::Photograph photograph;
+  photograph.attached = true;
+  photograph.frame = {{36, 24}, {36, 24}};
+  photograph.estimate = std::make_shared<const camera::Estimate>(estimate);
+  camera::Photo pixels{36, 24, std::vector<std::uint8_t>(std::size_t{3} * 36 * 24)};
+  photograph.picture = std::make_shared<const camera::PhotoFile>(
+      std::make_shared<const camera::Photo>(std::move(pixels)));
+  model::Attributes attributes;
+  attributes.level = level;
+  return ElementOf(std::make_shared<const model::Photograph>(photograph), attributes);
+}
+
+std::vector<tinygltf::Primitive> Textured(const tinygltf::Model& file) {
+  std::vector<tinygltf::Primitive> textured;
+  for (const tinygltf::Mesh& mesh : file.meshes) {
+    for (const tinygltf::Primitive& primitive : mesh.primitives) {
+      if (primitive.attributes.contains("TEXCOORD_0")) textured.push_back(primitive);
+    }
+  }
+  return textured;
+}
+
+TEST(Gltf, OfTwoOrthophotosInOnePlaceTheEarlierIsSeenWhereTheLaterShowsNothing) {
+  // The later camera stands so far to the right that its photograph begins at x = 2.15 m.
+  const double left_m = 2.15, half_m = 10 * 40.5 / 25 / 2;
+  const std::vector<model::ElementPtr> two{EvenOrthophoto(90),
+                                           EvenOrthophoto(200, {left_m + half_m, -10, 1.5})};
+  for (const bool has_wall : {true, false}) {
+    std::vector<model::ElementPtr> elements = two;
+    if (has_wall) elements.push_back(WallOf({0, 0, 0}, 4, 3));
+    const tinygltf::Model file = ReadBack(*GlbOf(ModelOf(elements), {}));
+    ASSERT_EQ(Textured(file).size(), 1U) << "on a wall: " << has_wall;
+    ASSERT_EQ(file.images.size(), 1U);
+    const tinygltf::Image& image = file.images[0];
+    ASSERT_EQ(image.width, 200);
+    const auto tone = [&](int x) { return image.image[image.component * (75 * image.width + x)]; };
+    EXPECT_EQ(tone(20), 90);
+    EXPECT_EQ(tone(100), 90);
+    EXPECT_EQ(tone(115), 200);
+    EXPECT_EQ(tone(180), 200);
+  }
+}
+
+TEST(Gltf, APhotographsPlaneIsPlacedByWhatIsVisible) {
+  model::Attributes off;
+  off.level = "off";
+  model::Model model = ModelOf({PhotographOn("1"), WallOf({0, 0, 0}, 4, 3)});
+  const auto plane_of = [](const model::Model& shown) {
+    const tinygltf::Model file = ReadBack(*GlbOf(shown, {.photographs = true}));
+    for (const tinygltf::Node& node : file.nodes) {
+      if (node.name == "photograph at its frame") return Translation(node);
+    }
+    return Vec3(0, 0, 0);
+  };
+  const Vec3 alone = plane_of(model);
+  EXPECT_NEAR(alone.y(), -10 + Vec3(2, 10, -0.5).norm() / 7, 1e-6);
+  const auto far_off = ElementOf(std::make_shared<const geom::Surface>(*geom::Extrusion(
+                                     geom::Line{{0, 300, 0}, {9, 300, 0}}, Vec3(0, 0, 9))),
+                                 off);
+  model = ModelOf({PhotographOn("1"), WallOf({0, 0, 0}, 4, 3), far_off});
+  EXPECT_GT((plane_of(model) - alone).norm(), 1);
+  model.hidden_levels = std::make_shared<const std::vector<std::string>>(1, "off");
+  EXPECT_EQ(plane_of(model), alone);
+}
+
+TEST(Gltf, APhotographOnALevelThatIsOffIsNotThere) {
+  model::Model model = ModelOf({PhotographOn("off"), WallOf({0, 0, 0}, 4, 3)});
+  EXPECT_EQ(ReadBack(*GlbOf(model, {.photographs = true})).nodes.size(), 4U);
+  model.hidden_levels = std::make_shared<const std::vector<std::string>>(1, "off");
+  EXPECT_EQ(ReadBack(*GlbOf(model, {.photographs = true})).nodes.size(), 2U);
+}
+
 TEST(Gltf, SameModelSameBytes) {
   EXPECT_EQ(*GlbOf(ModelOf({SphereOf()}), {}), *GlbOf(ModelOf({SphereOf()}), {}));
 }

@@ -38,5 +38,31 @@ inline model::ElementPtr SphereOf() {
   return ElementOf(std::make_shared<const geom::Surface>(
       *geom::Revolution(half, geom::Vec3::Zero(), geom::Vec3::UnitZ(), 2 * geom::kPi)));
 }
+// A stated camera that looks along Y, level.
+inline model::ElementPtr CameraAt(const geom::Vec3& place_m) {
+  camera::Estimate estimate;
+  estimate.camera.parameters << 25, 1, 0, 0, geom::kPi / 2, 0, 0, 0, place_m.x(), place_m.y(),
+      place_m.z();
+  model::Photograph photograph;
+  photograph.frame = {{40.5, 26.7}, {600, 400}};
+  photograph.estimate = std::make_shared<const camera::Estimate>(estimate);
+  return ElementOf(std::make_shared<const model::Photograph>(photograph));
+}
+// An orthophoto of 4 m by 3 m in the plane y = 0, all of this tone, as far as a camera at this
+// place sees it.
+inline model::ElementPtr EvenOrthophoto(std::uint8_t tone,
+                                        const geom::Vec3& camera_m = {2, -10, 1.5}) {
+  model::Orthophoto made;
+  made.facade = "front";
+  made.photograph = CameraAt(camera_m);
+  camera::Photo photo{600, 400, std::vector<std::uint8_t>(std::size_t{3} * 600 * 400, tone)};
+  made.pixels = std::make_shared<const camera::Photo>(std::move(photo));
+  made.plane = {geom::Vec3::Zero(), geom::Vec3::UnitX(), geom::Vec3::UnitZ()};
+  made.pixel_m = 0.02;
+  made.size_px = {200, 150};
+  made.tolerance_m = 0.02;
+  made.standing = std::make_shared<const model::Model>();
+  return ElementOf(std::make_shared<const model::Orthophoto>(made));
+}
 
 }  // namespace tranos::output

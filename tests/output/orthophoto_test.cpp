@@ -10,6 +10,7 @@
 #include "camera/facade_view.h"
 #include "output/facets.h"
 #include "output/pasting.h"
+#include "output/picture_plane.h"
 #include "tests/output/models.h"
 
 namespace tranos::output {
@@ -230,7 +231,7 @@ TEST(Pasting, AFaceIsCutAlongTheOrthophotosBorder) {
   const Pasting pasting(ModelOf({Borne(4, 3)}));
   // A wall of 6 m by 5 m that begins 1 m left of the orthophoto and 1 m below it.
   const Facets wall = *FacetsOf(*WallOf({-1, 0, -1}, 6, 5), {});
-  const auto split = pasting.Split(wall.mesh, Affine::Identity());
+  const auto split = pasting.Split(wall.mesh, Affine::Identity(), false);
   ASSERT_TRUE(split);
   ASSERT_EQ(split->bearing.size(), 1U);
   EXPECT_NEAR(AreaOf(split->bearing[0].mesh), 12, 1e-9);
@@ -243,11 +244,135 @@ TEST(Pasting, AFaceIsCutAlongTheOrthophotosBorder) {
 }
 TEST(Pasting, FacesThatLieElsewhereBearNothing) {
   const Pasting pasting(ModelOf({Borne(4, 3)}));
-  EXPECT_FALSE(pasting.Split(FacetsOf(*WallOf({0, 0.1, 0}, 6, 5), {})->mesh, Affine::Identity()));
-  EXPECT_FALSE(pasting.Split(FacetsOf(*WallOf({5, 0, 0}, 6, 5), {})->mesh, Affine::Identity()));
+  const auto bears = [&](const Vec3& corner, const Affine& place) {
+    return pasting.Split(FacetsOf(*WallOf(corner, 6, 5), {})->mesh, place, false).has_value();
+  };
+  EXPECT_TRUE(bears({0, 0, 0}, Affine::Identity()));
+  EXPECT_FALSE(bears({0, 0.1, 0}, Affine::Identity()));
+  EXPECT_FALSE(bears({5, 0, 0}, Affine::Identity()));
   Affine turned = Affine::Identity();
   turned.rotate(Eigen::AngleAxisd(geom::kPi / 2, Vec3::UnitZ()));
-  EXPECT_FALSE(pasting.Split(FacetsOf(*WallOf({0, 0, 0}, 6, 5), {})->mesh, turned));
+  EXPECT_FALSE(bears({0, 0, 0}, turned));
+}
+
+// A shape in the plane of the facade, with its front to the camera.
+geom::Mesh ShapeOf(std::vector<Vec3> corners) {
+  const auto region = geom::RegionOf({geom::Polyline{std::move(corners), true}});
+  return FacetsOf(*ElementOf(std::make_shared<const geom::Region>(*region)), {})->mesh;
+}
+double AreaOf(const SplitMesh& split) {
+  double area = AreaOf(split.plain);
+  for (const BearingMesh& bearing : split.bearing) area += AreaOf(bearing.mesh);
+  return area;
+}
+
+TEST(Pasting, AVertexOnTheBorderTakesNothingAway) {
+  // A gable whose ridge, foot and eaves lie on the borders of orthophotos of many sizes.
+  const geom::Mesh gable = ShapeOf({{0, 0, 0}, {10, 0, 0}, {10, 0, 6}, {5, 0, 9}, {0, 0, 6}});
+  for (const double width_m : {2.5, 5.0, 7.5, 10.0}) {
+    for (const double height_m : {3.0, 6.0, 7.5, 9.0}) {
+      const Pasting pasting(ModelOf({Borne(width_m, height_m)}));
+      const auto split = pasting.Split(gable, Affine::Identity(), false);
+      ASSERT_TRUE(split);
+      EXPECT_NEAR(AreaOf(*split), AreaOf(gable), 1e-9) << width_m << " by " << height_m;
+    }
+  }
+}
+
+TEST(Pasting, AFaceThatLooksAwayBearsNothingIfItHasAnOuterSide) {
+  const Pasting pasting(ModelOf({Borne(4, 3)}));
+  const geom::Mesh towards = ShapeOf({{0, 0, 0}, {4, 0, 0}, {4, 0, 3}, {0, 0, 3}});
+  geom::Mesh away = towards;
+  for (Vec3& normal : away.normals) normal = -normal;
+  EXPECT_TRUE(pasting.Split(towards, Affine::Identity(), true));
+  EXPECT_FALSE(pasting.Split(away, Affine::Identity(), true));
+  EXPECT_TRUE(pasting.Split(away, Affine::Identity(), false));
+  // A mirrored one looks where its mirrored normals point.
+  const Affine mirrored(Eigen::DiagonalMatrix<double, 3>(1, -1, 1));
+  EXPECT_FALSE(pasting.Split(towards, mirrored, true));
+  EXPECT_TRUE(pasting.Split(away, mirrored, true));
+}
+
+TEST(Pasting, WhatALaterOneCoversIsBorneToo) {
+  const Pasting pasting(ModelOf({Borne(4, 3), Borne(4, 3)}));
+  const geom::Mesh wall = FacetsOf(*WallOf({-1, 0, -1}, 6, 5), {})->mesh;
+  const auto split = pasting.Split(wall, Affine::Identity(), false);
+  ASSERT_TRUE(split);
+  EXPECT_EQ(split->borne, (std::vector<std::size_t>{0, 1}));
+  ASSERT_EQ(split->bearing.size(), 1U);
+  EXPECT_EQ(split->bearing[0].orthophoto, 1U);
+  EXPECT_NEAR(AreaOf(*split), 30, 1e-9);
+}
+
+TEST(Orthophoto, TheEarlierOneIsSeenThroughTheHolesOfTheLater) {
+  model::Orthophoto later = OrthophotoOf(SkewedCamera(), kFrame);
+  const auto earlier = std::make_shared<model::Orthophoto>(OrthophotoOf(SkewedCamera(), kFrame));
+  earlier->pixels = Taken(SkewedCamera(), kFrame, kFront, ToneAt);
+  earlier->pixel_m = 0.05;
+  earlier->size_px = {200, 120};
+  const PicturePlane plane = *PlaneOf(earlier, 2);
+  Picture picture{later.size_px.x(), later.size_px.y(), {}, {}};
+  picture.alpha.resize(static_cast<std::size_t>(picture.width_px) * picture.height_px);
+  picture.rgb.resize(3 * picture.alpha.size());
+  picture.alpha[0] = 255;
+  ShowBehind(plane, later, 2, &picture);
+  EXPECT_EQ(picture.rgb[0], 0);  // it shows something itself
+  std::size_t filled = 0;
+  ForPixels(later, [&](const Vec2& place, std::size_t i) {
+    if (i == 0 || picture.alpha[i] == 0) return;
+    EXPECT_NEAR(picture.rgb[3 * i], ToneAt(place.x(), place.y()), 4);
+    ++filled;
+  });
+  EXPECT_GT(filled, 90'000U);
+}
+
+TEST(Orthophoto, AtThePhotographsBorderAsManyDotsAreAveragedAsElsewhere) {
+  // Black and white dots in turn, seen from far: grey, wherever the photograph ends.
+  camera::Camera straight;
+  straight.parameters << 36, 1, 0, 0, 90 * kDegree, 0, 0, 0, 4, -10, 2.5;
+  const camera::Frame frame{{36, 24}, {3000, 2000}};
+  model::Orthophoto made = OrthophotoOf(straight, frame);
+  made.plane.origin = {-8, 0, -4};
+  made.pixel_m = 0.1;
+  made.size_px = {240, 130};
+  camera::Photo photo{3000, 2000, {}};
+  for (int i = 0; i < 3000 * 2000; ++i) {
+    const bool is_white = (i % 3000 + i / 3000) % 2 == 0;
+    photo.rgb.insert(photo.rgb.end(), 3, is_white ? 255 : 0);
+  }
+  made.pixels = std::make_shared<const camera::Photo>(std::move(photo));
+  const RectifiedFacade rectified = *Rectify(made, 2);
+  std::size_t seen = 0;
+  ForPixels(made, [&](const Vec2&, std::size_t i) {
+    if (rectified.seen.why[i] != Unseen::kSeen) return;
+    ++seen;
+    EXPECT_NEAR(rectified.picture.rgb[3 * i], 128, 2) << i % 240 << ", " << i / 240;
+  });
+  EXPECT_GT(seen, 5000U);
+}
+
+model::Hash128 HashOf(const std::vector<model::ElementPtr>& standing,
+                      std::vector<std::string> hidden_levels = {}) {
+  model::Orthophoto made = OrthophotoOf(SkewedCamera(), kFrame);
+  model::Model model = ModelOf(standing);
+  model.hidden_levels = std::make_shared<const std::vector<std::string>>(std::move(hidden_levels));
+  made.standing = std::make_shared<const model::Model>(std::move(model));
+  model::Hasher hasher;
+  AddToHash(hasher, made);
+  return hasher.Finish();
+}
+
+TEST(Orthophoto, OnlyWhatCouldHideItChangesWhatItIs) {
+  const model::ElementPtr pier = WallOf({3, -2, 0}, 0.7, 3.3);
+  const model::Hash128 alone = HashOf({pier});
+  EXPECT_NE(alone, HashOf({}));
+  EXPECT_NE(alone, HashOf({WallOf({3, -1.9, 0}, 0.7, 3.3)}));
+  // Behind it, far aside of it, behind the camera; and what has no faces.
+  EXPECT_EQ(alone, HashOf({pier, WallOf({0, 1, 0}, 8, 5)}));
+  EXPECT_EQ(alone, HashOf({pier, WallOf({60, -2, 0}, 8, 5)}));
+  EXPECT_EQ(alone, HashOf({pier, WallOf({3, -30, 0}, 8, 5)}));
+  EXPECT_EQ(alone, HashOf({LineOf({3, -2, 0}, {4, -2, 3}), pier}));
+  EXPECT_EQ(HashOf({pier}, {"1"}), HashOf({}));
 }
 
 }  // namespace

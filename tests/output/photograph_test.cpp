@@ -252,6 +252,52 @@ TEST_F(Effect, PaperAndScannerLeaveTraces) {
   EXPECT_GT(Deviation(With(&model::PrintEffects::scan), 8, 8, kSky), 5);
 }
 
+// A white wall with its back to the sun, which fills the picture.
+model::PhotoRequest ShadeOf(const Vec3& place_m, const char* material) {
+  model::PhotoRequest request;
+  model::Attributes attributes;
+  attributes.colour = model::Colour{model::Colour::kRgb | 0xe0e0e0};
+  attributes.material = material;
+  const Vec3 corner = place_m + Vec3(-30, 0, -2);
+  request.model =
+      ModelOf({ElementOf(std::make_shared<const geom::Surface>(*geom::Extrusion(
+                             geom::Line{corner, corner + Vec3(60, 0, 0)}, Vec3(0, 0, 40))),
+                         std::move(attributes))});
+  request.taken = request.model.Current(0);
+  request.camera.parameters << 36, 1, 0, 0, 90 * kDegree, 0, 0, 0, place_m.x(), place_m.y() - 12,
+      place_m.z() + 8;
+  request.frame = {{36, 24}, {960, 640}};
+  request.distortion.unit_mm = Vec2::Constant(20);
+  request.towards_sun = Vec3(0, 0.8, 0.6);
+  return request;
+}
+
+TEST(Photograph, TheLightOfTheSkyIsEven) {
+  const Tones plate = *Expose(ShadeOf({0, 0, 0}, ""), 2);
+  // Between neighbours two pixels apart there is little of the pattern, and all of the noise.
+  double squares = 0;
+  int count = 0;
+  for (int y = 100; y < 540; ++y) {
+    for (int x = 100; x < 860; ++x, ++count) {
+      const double mean = 0.25 * (plate.At(x - 1, y) + plate.At(x + 1, y) + plate.At(x, y - 1) +
+                                  plate.At(x, y + 1));
+      squares += std::pow(plate.At(x, y) - mean, 2);
+    }
+  }
+  EXPECT_LT(255 * std::sqrt(squares / count), 2.5);
+}
+
+TEST(Photograph, IsTheSameInTheCoordinatesOfASurvey) {
+  // 122 and 1220 steps of the patterns away, as east and north are.
+  const Tones here = *Expose(ShadeOf({0, 0, 0}, "brick"), 2);
+  const Tones there = *Expose(ShadeOf({122 * 4096.0, 1220 * 4096.0, 0}, "brick"), 2);
+  double sum = 0;
+  for (std::size_t i = 0; i < here.values.size(); ++i) {
+    sum += std::abs(here.values[i] - there.values[i]);
+  }
+  EXPECT_LT(255 * sum / static_cast<double>(here.values.size()), 1);
+}
+
 TEST(Photograph, ALensThatFoldsThePictureIsRefused) {
   const auto refused = TakePhotograph(RequestOf(-0.3, -0.3), 2);
   ASSERT_FALSE(refused);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "output/gltf.h"
 #include "output/png.h"
 #include "tests/output/models.h"
 
@@ -62,6 +63,84 @@ TEST(Picture, HiddenLineIsLeftOutAndWireframeShowsIt) {
   EXPECT_GT(dark_in_column(wire, 200), 0);
   EXPECT_EQ(dark_in_column(hidden, 200), 0);
   EXPECT_GT(dark_in_column(hidden, 50), 0);
+}
+
+model::RenderRequest ThroughFirst(std::vector<model::ElementPtr> elements, RenderMode mode) {
+  model::RenderRequest request;
+  request.model = ModelOf(std::move(elements));
+  request.view.mode = mode;
+  request.view.camera = 0;
+  request.width_px = 600, request.height_px = 400;
+  return request;
+}
+
+TEST(Picture, AHiddenLineThroughACameraIsLeftOutWhereverTheModelsMiddleIs) {
+  // A wall at 10 m, a line half a metre behind it, and what moves the middle of the model beside
+  // the camera or behind it.
+  for (const Vec3& far_off : {Vec3(0, 0, 0), Vec3(0, -60, 0), Vec3(300, -9, 0), Vec3(0, 900, 0)}) {
+    const auto request =
+        ThroughFirst({CameraAt({0, -10, 2}), WallOf({-3, 0, -1}, 6, 6),
+                      LineOf({-8, 0.5, 2}, {8, 0.5, 2}), LineOf(far_off, far_off + Vec3(0, 1, 0))},
+                     RenderMode::kHidden);
+    const Picture picture = *Render(request, 2);
+    const auto dark_in_column = [&](int x) {
+      int count = 0;
+      for (int y = 100; y < 250; ++y) count += At(picture, x, y) < 200;
+      return count;
+    };
+    EXPECT_EQ(dark_in_column(300), 0) << far_off.transpose();
+    EXPECT_GT(dark_in_column(60), 0) << far_off.transpose();
+  }
+}
+
+TEST(Picture, AViewThroughACameraFollowsItWhenItIsMoved) {
+  const auto wall_at = [](double x) {
+    model::RenderRequest request =
+        ThroughFirst({CameraAt({0, -10, 2}), WallOf({-1, 0, 0}, 2, 4)}, RenderMode::kPhong);
+    model::Edit edit;
+    edit.replaced = {model::WithId(*CameraAt({x, -10, 2}), 0)};
+    request.model = model::Apply({request.model, {}}, edit).state.model;
+    const Picture picture = *Render(request, 2);
+    for (int i = 0; i < 600; ++i) {
+      if (At(picture, i, 200) > At(picture, i, 200, 2) + 6) return i;
+    }
+    return -1;
+  };
+  const double focal_px = 25 / 40.5 * 600;
+  EXPECT_NEAR(wall_at(0), 300 - focal_px / 10, 2);
+  EXPECT_NEAR(wall_at(2), 300 - 3 * focal_px / 10, 2);
+}
+
+TEST(Picture, AFaceShowsThePhotographAsItIs) {
+  model::RenderRequest request;
+  request.model = ModelOf({EvenOrthophoto(100), WallOf({0, 0.01, 0}, 4, 3)});
+  request.view.textured = true;
+  request.width_px = 400, request.height_px = 300;
+  for (const char* direction : {"front", "iso"}) {
+    request.view.direction = direction;
+    const Picture picture = *Render(request, 2);
+    for (int c = 0; c < 3; ++c) EXPECT_EQ(At(picture, 200, 150, c), 100) << direction;
+  }
+}
+
+TEST(Picture, AFaceABitAslantBearsThePhotographAsInTheModelsFile) {
+  // Within the tolerance over all its length, and beyond it at one end.
+  for (const auto& [aside_m, bears] : {std::pair{0.015, true}, {0.04, false}}) {
+    const auto aslant = ElementOf(std::make_shared<const geom::Surface>(
+        *geom::Extrusion(geom::Line{{1, 0, 0}, {1.6, aside_m, 0}}, Vec3(0, 0, 2))));
+    model::RenderRequest request;
+    request.model = ModelOf({EvenOrthophoto(100), aslant});
+    request.view.textured = true;
+    request.view.direction = "front";
+    request.width_px = 400, request.height_px = 300;
+    const Picture picture = *Render(request, 2);
+    EXPECT_EQ(At(picture, 200, 150) == 100, bears) << aside_m;
+    const std::string glb = *GlbOf(request.model, {});
+    const std::string textured = "\"name\":\"surface\"";
+    EXPECT_NE(glb.find(textured), std::string::npos);
+    const bool stands_alone = glb.find("\"name\":\"orthophoto\"") != std::string::npos;
+    EXPECT_EQ(stands_alone, !bears) << aside_m;
+  }
 }
 
 TEST(Picture, LineStylesLeaveGapsAndWeightsWiden) {

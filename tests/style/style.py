@@ -34,7 +34,7 @@ DOORS = [
     ("glog/", ["camera/refinement.cpp"]),
     ("xxhash.h", ["model/hash.cpp"]),
     ("utf8proc.h", ["interp/*.cpp"]),
-    ("tiny_gltf.h", ["output/gltf.cpp"]),
+    ("tiny_gltf.h", ["output/gltf.cpp", "output/gltf_tables.h"]),
     ("embree3/", ["output/ray_scene.cpp"]),
     ("tbb/", ["output/*.cpp"]),
     ("png.h", ["output/png.cpp", "camera/photo.cpp"]),

@@ -55,7 +55,7 @@ class House {
   // The script's numbers, by name.
   std::map<std::string, double> Numbers() const {
     RunOptions options;
-    options.photographs["house.png"] = {{}, {3600, 2400}};
+    options.photographs.by_path["house.png"] = {{}, {3600, 2400}};
     const ScriptResult result = RunScript("house.trn", text_, {}, options, {});
     for (const Diagnostic& told : result.diagnostics.list()) ADD_FAILURE() << told.message;
     std::map<std::string, double> numbers;

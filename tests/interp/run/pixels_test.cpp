@@ -101,7 +101,7 @@ TEST_F(PixelsTest, OfAStatedCameraThereAreNone) {
 
 TEST_F(PixelsTest, AreNotKeptByAJournal) {
   RunOptions replay;
-  replay.photographs["a.png"] = {{}, {5, 3}};
+  replay.photographs.by_path["a.png"] = {{}, {5, 3}};
   const auto pixels = PixelsOf(*After("attach photo \"a.png\" as a", "a", replay));
   ASSERT_FALSE(pixels.has_value());
   EXPECT_EQ(pixels.error().code, Code::kCannotRead);
