@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "output/material.h"
+#include "output/orthophoto.h"
 #include "output/parts.h"
 #include "output/png.h"
 
@@ -106,41 +107,26 @@ Result<int> GlbPictures::AddPhotographPlane(const Element& element,
   return tables_.AddNode(std::move(node));
 }
 
-// An orthophoto is at hand from when it is made until the last one over it has been.
+// Two orthophotos are at hand at most: the one that is shown, and one that is seen through it.
 std::optional<Error> GlbPictures::MakePictures() {
-  const std::size_t count = pasting_.elements().size();
-  std::vector<std::size_t> last_use(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    for (std::size_t later = i; later < count; ++later) {
-      const auto first = materials_.lower_bound({later, 0});
-      const bool is_shown = first != materials_.end() && first->first.first == later;
-      const bool shows = later == i || LiesIn(pasting_.At(later), pasting_.At(i));
-      if (is_shown && shows) last_use[i] = later + 1;
-    }
-  }
-  std::vector<std::optional<PicturePlane>> planes(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    if (last_use[i] > 0) {
-      Result<PicturePlane> plane = PlaneOf(pasting_.Shared(i), threads_);
+  for (auto each = materials_.begin(); each != materials_.end();) {
+    const std::size_t shown = each->first.first;
+    Result<RectifiedFacade> rectified = Rectify(pasting_.At(shown), threads_);
+    if (!rectified) return rectified.error();
+    Picture& picture = rectified->picture;
+    const auto has_holes = [&] {
+      return std::find(picture.alpha.begin(), picture.alpha.end(), 0) != picture.alpha.end();
+    };
+    for (std::size_t earlier = shown; earlier-- > 0 && has_holes();) {
+      if (!LiesIn(pasting_.At(shown), pasting_.At(earlier))) continue;
+      const Result<PicturePlane> plane = PlaneOf(pasting_.Shared(earlier), threads_);
       if (!plane) return plane.error();
-      planes[i] = *std::move(plane);
+      ShowBehind(*plane, pasting_.At(shown), threads_, &picture);
     }
-    const auto first = materials_.lower_bound({i, 0});
-    if (first != materials_.end() && first->first.first == i) {
-      Picture seen = *planes[i]->picture;
-      for (std::size_t k = i; k-- > 0;) {
-        if (planes[k] && LiesIn(pasting_.At(i), pasting_.At(k))) {
-          ShowBehind(*planes[k], pasting_.At(i), threads_, &seen);
-        }
-      }
-      for (auto each = first; each != materials_.end() && each->first.first == i; ++each) {
-        Result<std::string> png = PngOf(OverColour(seen, ColourOf(each->first.second)));
-        if (!png) return png.error();
-        tables_.SetPicture(each->second, *std::move(png));
-      }
-    }
-    for (std::size_t k = 0; k <= i; ++k) {
-      if (last_use[k] <= i + 1) planes[k].reset();
+    for (; each != materials_.end() && each->first.first == shown; ++each) {
+      Result<std::string> png = PngOf(OverColour(picture, ColourOf(each->first.second)));
+      if (!png) return png.error();
+      tables_.SetPicture(each->second, *std::move(png));
     }
   }
   return std::nullopt;
