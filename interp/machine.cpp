@@ -41,16 +41,8 @@ Machine::Machine(const Program& program, const RunOptions& options, const Host& 
     : program_(program),
       options_(options),
       outer_host_(host),
-      host_{host.read, [this](std::string_view line) { Print(line); }},
+      host_{host.read, [this](std::string_view line) { Print(line); }, host.render_photo},
       budget_(options.limits) {
-  if (host.render_photo) {
-    // What stands is evaluated, and charged, as before all that is written.
-    host_.render_photo = [this](const model::PhotoRequest& request) {
-      request.model.ForEach(
-          [this](const model::ElementPtr& element) { solids_.Force(*element, {}); });
-      return outer_host_.render_photo(request);
-    };
-  }
   if (options.on_progress) budget_.on_progress = &options.on_progress;
   unsolved_ = program.calibrates;
   if (unsolved_) slice_.emplace();
