@@ -175,7 +175,10 @@ Fired Machine::Calibrate(const Answers& answers, const model::State& state, Span
     found = numbers ? EstimatesBy(method, traced, *numbers)
                     : geom::Result<std::vector<camera::Estimate>>(tl::unexpected(numbers.error()));
   }
-  if (!found && evaluation.failure()) throw *evaluation.failure();
+  // What ends a run is no trial that failed.
+  if (evaluation.failure() && (!found || IsLimit(evaluation.failure()->diagnostic.code))) {
+    throw *evaluation.failure();
+  }
   if (!found) FailCalibration(found.error(), evaluation, traced, span);
   CheckUnknowns((*found)[0]);
   return Calibrated({evaluation, traced, silent, solved, *std::move(found)}, state, span);

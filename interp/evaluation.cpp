@@ -253,7 +253,8 @@ geom::Result<camera::Numbers> Machine::Evaluation::operator()(const Eigen::Vecto
     if (!read_off_.empty()) AddReadOff(unknowns, &numbers);
     return numbers;
   } catch (const RunFailure& failure) {
-    failure_ = failure;
+    // What ends a run stays what failed, whatever fails after it.
+    if (!failure_ || !IsLimit(failure_->diagnostic.code)) failure_ = failure;
     return tl::unexpected(geom::Error{geom::ErrorCode::kOutOfRange, failure.diagnostic.message});
   }
 }

@@ -16,6 +16,12 @@
 
 namespace tranos::interp {
 
+// Whether it ends a run, and is no fault of the values that were tried.
+inline bool IsLimit(Code code) {
+  return code == Code::kStepLimit || code == Code::kElementLimit || code == Code::kMemoryLimit ||
+         code == Code::kDepthLimit;
+}
+
 // What the sources of a run are given in place of their own.
 struct Machine::Trial {
   // By the order in which they are met: the value of an unknown, the error of a `+-` literal.
@@ -63,7 +69,8 @@ class Machine::Evaluation {
 
   const std::vector<camera::Unknown>& unknowns() const { return unknowns_; }
   const std::vector<std::size_t>& sources() const { return sources_; }
-  // What a run failed by, in the last evaluation that gave no numbers.
+  // What the last trial that gave no numbers failed by, or the first that reached a limit of the
+  // run.
   const std::optional<RunFailure>& failure() const { return failure_; }
 
   geom::Result<camera::Numbers> operator()(const Eigen::VectorXd& unknowns);

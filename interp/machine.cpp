@@ -349,11 +349,11 @@ Value Machine::CallClosure(const Value& closure, std::span<const Value> argument
 void Machine::PointEffect(const Instruction& i, const CodeUnit& unit, const Value* r, Stage* stage,
                           Span span) {
   const auto kind = static_cast<PointKey>(i.flags & ~kPackedPoint);
-  if (unsolved_ && stage->picks()) {
+  if (unsolved_ && (stage->picks() || kind == PointKey::kDot)) {
     const std::uint32_t count = i.flags & kPackedPoint ? 1 : i.c;
     for (std::uint32_t n = 0; n < count; ++n) {
       RefuseUnknown(i.flags & kPackedPoint ? Get(i.b, r, unit.constants.data()) : r[i.b + n], span,
-                    "a pick");
+                    stage->picks() ? "a pick" : "a dot");
     }
   }
   if (i.flags & kPackedPoint) {

@@ -161,8 +161,7 @@ class Gathering {
       const ElementPtr known = model::FindFacade(state_.model, trace.facade);
       const bool is_first = known && IsFirst(model::FacadeOf(*known).plane);
       auto& names = known && (world_is_fixed || !is_first) ? given : out_.facades;
-      if (std::ranges::find(names, trace.facade) != names.end()) return;
-      names.insert(is_first ? names.begin() : names.end(), trace.facade);
+      if (std::ranges::find(names, trace.facade) == names.end()) names.push_back(trace.facade);
     });
     out_.given_planes.assign(out_.facades.size(), -1);
     for (const std::string& name : given) {

@@ -247,7 +247,9 @@ constexpr Command kCommands[] = {
 }  // namespace
 
 std::string EdgesKey(const model::Detection& detection, double noise_px) {
-  return fmt::format("{} {} {}", model::Hex(detection.content), detection.min_length_px, noise_px);
+  // To fewer digits than a journal keeps, so that a replay has the same.
+  return fmt::format("{} {:.9g} {:.9g}", model::Hex(detection.content), detection.min_length_px,
+                     noise_px);
 }
 
 std::span<const Command> DetectCommands() { return kCommands; }

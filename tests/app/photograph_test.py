@@ -200,7 +200,7 @@ class Photograph(harness.ProgramTest):
         shutil.copy(GOLDENS / "house.png", self.folder)
         text = ('attach photo "house.png" as house\n'
                 "detect edges as all\nchoose element of=all; delete\n"
-                "detect edges least=40 as long\nnoise=1px\ndetect edges least=60 as longer\n"
+                "detect edges least=40 as long\nnoise=0.3px\ndetect edges least=33 as longer\n"
                 "detect vanishing points\n"
                 "place slab length=8m width=6m height=5m xy=0,0,0\n"
                 "place camera f=33mm format=40mm,27mm size=484,319 omega=8deg phi=20deg xy=9,-14,2 as paper\n"
