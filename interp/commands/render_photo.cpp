@@ -154,7 +154,7 @@ tl::expected<PhotoRequest, CommandError> RequestOf(const State& state, const Ans
   const auto taken = CameraAt(state, answers, "camera");
   if (!taken) return Fail(taken.error());
   const model::Photograph& photograph = PhotographOf(**taken);
-  PhotoRequest request{.model = state.model,
+  PhotoRequest request{.model = model::Apart(state.model),
                        .taken = *taken,
                        .camera = photograph.estimate->camera,
                        .frame = photograph.frame,
