@@ -296,7 +296,9 @@ void Stage::Point(PointKey kind, const Value& values, Span span) {
     return TakePoint(DrawnThrough(values, span), span);
   }
   const model::Drawing& drawing = state_.drawing;
-  const geom::Frame view = model::FrameOf(*drawing.view, state_.model, "top");
+  // Asked for by dx= alone: most points of a long script need no view.
+  const geom::Frame view =
+      kind == PointKey::kDx ? model::FrameOf(*drawing.view, state_.model, "top") : geom::Frame{};
   const bool follows = kind == PointKey::kDl || kind == PointKey::kDi || kind == PointKey::kDx;
   if (Slice* const slice = SliceInUse()) {
     point_note_ =

@@ -183,6 +183,7 @@ class Gathering {
     });
   }
 
+  // Of what the camera's traces fix the world by (camera::WorldIsFixed), before they are made.
   static bool HasPlace(const Trace& trace) {
     return trace.kind == Trace::Kind::kEdge || trace.kind == Trace::Kind::kElement ||
            trace.kind == Trace::Kind::kPoint;

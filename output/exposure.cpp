@@ -285,7 +285,7 @@ class Brightness {
 
 // More samples a side where there are fewer pixels: large pictures are softened afterwards anyway.
 int SamplesASide(const Eigen::Vector2i& size_px) {
-  const double pixels = double{1} * size_px.x() * size_px.y();
+  const double pixels = size_px.cast<double>().prod();
   return pixels <= 400'000 ? 4 : 2;
 }
 

@@ -26,8 +26,8 @@ double FinestPixel_m(const geom::Box& box, const camera::Camera& camera,
 }
 
 Eye::Eye(const camera::Camera& camera, const camera::Frame& frame, int width_px, int height_px)
-    : scale_(std::min(width_px / double{1} / frame.size_px.x(),
-                      height_px / double{1} / frame.size_px.y())),
+    : scale_(std::min(static_cast<double>(width_px) / frame.size_px.x(),
+                      static_cast<double>(height_px) / frame.size_px.y())),
       centre_px_(frame.centre_px()) {
   const camera::Mat3 camera_from_world = camera::CameraFromWorld(camera.parameters);
   axes_ = Vec3(1, -1, -1).asDiagonal() * camera_from_world;

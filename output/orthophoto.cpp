@@ -146,7 +146,8 @@ void Fill(const Shadow& shadow, int top, int bottom, int width_px, Unseen* band)
       const double x = a.x() + t * (b.x() - a.x());
       left = std::min(left, x), right = std::max(right, x);
     }
-    const int from = static_cast<int>(std::ceil(std::clamp(left, 0.0, double{1} * width_px)));
+    const int from =
+        static_cast<int>(std::ceil(std::clamp(left, 0.0, static_cast<double>(width_px))));
     const int to = static_cast<int>(std::floor(std::clamp(right, -1.0, width_px - 1.0)));
     Unseen* const row = band + static_cast<std::size_t>(y - top) * width_px;
     if (from <= to) std::fill(row + from, row + to + 1, Unseen::kHidden);

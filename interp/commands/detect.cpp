@@ -56,7 +56,7 @@ tl::expected<std::vector<FoundEdge>, CommandError> EdgesOn(const model::Element&
   std::vector<FoundEdge> edges;
   for (const camera::ImageLine& line : *lines) {
     edges.push_back({{Rounded(line.a_px), Rounded(line.b_px)},
-                     double{1} * camera::SamplesOf(line, noise_px > 0 ? noise_px : 1)});
+                     static_cast<double>(camera::SamplesOf(line, noise_px > 0 ? noise_px : 1))});
   }
   return surroundings.photographs.edges.emplace(key, std::move(edges)).first->second;
 }
