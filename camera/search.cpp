@@ -280,10 +280,16 @@ void LookAgain(const Task& task, std::vector<Refined>* refined) {
   });
   Poses poses;
   poses.Add(task, best.numbers, u, starts);
+  // A rough pose may still come down, but one that fits far worse than what is known does not get
+  // there, and creeps along its valley.
+  const bool sees = SeesAll(task, best);
+  std::erase_if(poses.seeing, [&](const Refined& pose) {
+    return sees && pose.cost > 2 * best.cost + 2 * kWithinNoise;
+  });
   std::ranges::stable_sort(poses.seeing, {}, &Refined::cost);
   std::vector<Refined> more = Settle(task, poses.seeing);
   if (more.empty()) return;
-  if (!SeesAll(task, best)) refined->clear();
+  if (!sees) refined->clear();
   std::ranges::move(more, std::back_inserter(*refined));
   std::ranges::stable_sort(*refined, {}, &Refined::cost);
 }

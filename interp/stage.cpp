@@ -292,6 +292,7 @@ PointTerms Stage::TermsOf(PointKey kind, const Value& values) const {
 
 void Stage::Point(PointKey kind, const Value& values, Span span) {
   if (links_.options) key_in_ = PointText(kind, values);
+  if (kind == PointKey::kDot) WarnOfDeviation(values, span);
   if (kind == PointKey::kDot && active_.row && !active_.row->dots) {
     return TakePoint(DrawnThrough(values, span), span);
   }
@@ -307,6 +308,13 @@ void Stage::Point(PointKey kind, const Value& values, Span span) {
   TakePoint({PlaceOf(kind, values, drawing, view, drawing.last_point), TermsOf(kind, values)}, span,
             kind == PointKey::kDot);
   point_note_ = Slice::kNone;
+}
+
+void Stage::WarnOfDeviation(const Value& dot, Span span) const {
+  const auto is_uncertain = [](const Value& coordinate) { return coordinate.derivatives(); };
+  if (!dot.is_list() || std::ranges::none_of(dot.list(), is_uncertain)) return;
+  links_.diagnostics->Add({Code::kDotExact, span, "the deviation of this dot is not taken", "",
+                           "`noise=` says how uncertain dots are; `.value` is a number without"});
 }
 
 void Stage::On(const model::Interface& interface, ElementId host, Span span) {

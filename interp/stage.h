@@ -73,7 +73,7 @@ struct StageLinks {
   DotSource dot_source;
   PhotographFiles* photographs;
   SolidLedger* solids;
-  Trail* trail;          // null where nothing is solved for
+  Trail* trail;  // null where nothing is solved for
   // Takes down what came from unknowns, until they are solved for; null where nothing is.
   std::optional<Slice>* slice;
   std::uint64_t serial;  // tells the stages of a run apart
@@ -196,12 +196,11 @@ class Stage {
   void AddChosen(const model::ElementPtr& element, Span span, ChosenOnce* out) const;
   void Fire(Span span);
   void GuardChanges(model::Edit* edit) const;
-  Slice* SliceInUse() const {
-    return links_.slice && *links_.slice ? &**links_.slice : nullptr;
-  }
+  Slice* SliceInUse() const { return links_.slice && *links_.slice ? &**links_.slice : nullptr; }
   void NotePlaced(const Answers& answers, const model::Edit& edit) const;
   void Carry(const Answers& answers, model::Edit* edit, Span span) const;
   void WarnTooLate(const model::Edit& edit) const;
+  void WarnOfDeviation(const model::Value& dot, Span span) const;
   void FirePlacement(Span span);
   model::ElementPtr Drawn(const model::Element& placed) const;
   void FireHistory(Span span);

@@ -185,7 +185,7 @@ void Stage::NotePlaced(const Answers& answers, const model::Edit& edit) const {
   const bool places = row.manner == Manner::kPlaces || row.manner == Manner::kGathers;
   if (!places || !row.execute || row.dots || edit.added.size() != 1) return;
   slice->NoteFiring({&row, answers, state_, active_.point_notes,
-                            static_cast<model::ElementId>(state_.model.entries.size())});
+                     static_cast<model::ElementId>(state_.model.entries.size())});
 }
 
 // What is made from what was drawn through a photograph hangs on the same sources.

@@ -70,6 +70,11 @@ bool HasFaces(const Element& leaf) {
          std::holds_alternative<RegionPtr>(leaf.geometry) || HasOutside(leaf);
 }
 
+void AddToHash(Hasher& hasher, const Element& leaf, const geom::Affine& world_from_leaf) {
+  hasher.Hash(leaf.hash).Point(world_from_leaf.translation());
+  for (int i = 0; i < 3; ++i) hasher.Direction(world_from_leaf.linear().col(i));
+}
+
 bool HasOutside(const Element& leaf) { return std::holds_alternative<SolidPtr>(leaf.geometry); }
 
 geom::Result<geom::Mesh> FacesOf(const Element& leaf, const geom::Tolerance& tolerance) {

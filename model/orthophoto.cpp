@@ -38,18 +38,15 @@ Hash128 HashOfHiding(const Orthophoto& orthophoto) {
   const Vec3 camera = orthophoto.plane.ToLocal(taken.estimate->camera.position_m());
   const geom::Affine plane_from_world = orthophoto.plane.WorldFromFrame().inverse();
   Hash128 sum;
-  orthophoto.standing->ForEach([&](const ElementPtr& element) {
-    ForEachLeaf(*element, [&](const Element& leaf, const geom::Affine& world_from_leaf,
-                              const Attributes& attributes) {
-      if (!HasFaces(leaf) || !orthophoto.standing->LevelIsOn(attributes.level)) return;
-      const geom::Affine plane_from_leaf = plane_from_world * world_from_leaf;
-      if (!MayHide(geom::Carried(BoundingBox(leaf), plane_from_leaf), orthophoto, camera)) return;
-      Hasher hasher;
-      hasher.Hash(leaf.hash).Point(world_from_leaf.translation());
-      for (int i = 0; i < 3; ++i) hasher.Direction(world_from_leaf.linear().col(i));
-      sum = sum + hasher.Finish();
-    });
-  });
+  ForEachWithFaces(
+      *orthophoto.standing,
+      [&](const Element& leaf, const geom::Affine& world_from_leaf, const Attributes&) {
+        const geom::Affine plane_from_leaf = plane_from_world * world_from_leaf;
+        if (!MayHide(geom::Carried(BoundingBox(leaf), plane_from_leaf), orthophoto, camera)) return;
+        Hasher hasher;
+        AddToHash(hasher, leaf, world_from_leaf);
+        sum = sum + hasher.Finish();
+      });
   return sum;
 }
 

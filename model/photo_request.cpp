@@ -2,16 +2,26 @@
 #include "model/photo_request.h"
 
 #include "model/edit.h"
-#include "model/element.h"
+#include "model/faces.h"
 
 namespace tranos::model {
 
+// A sum over the faces, as they stand and look: nothing else is seen on a photograph.
+static Hash128 HashOfFaces(const Model& model) {
+  Hash128 sum;
+  ForEachWithFaces(model, [&](const Element& leaf, const geom::Affine& world_from_leaf,
+                              const Attributes& attributes) {
+    Hasher hasher;
+    AddToHash(hasher, leaf, world_from_leaf);
+    AddToHash(hasher, attributes);
+    sum = sum + hasher.Finish();
+  });
+  return sum;
+}
+
 Hash128 HashOf(const PhotoRequest& request) {
   Hasher hasher;
-  hasher.Hash(request.model.hash).Hash(request.taken->hash);
-  if (request.model.hidden_levels) {
-    for (const std::string& level : *request.model.hidden_levels) hasher.Text(level);
-  }
+  hasher.Hash(HashOfFaces(request.model)).Hash(request.taken->hash);
   hasher.Integer(request.frame.size_px.x()).Integer(request.frame.size_px.y());
   hasher.Ratio(request.distortion.k1).Ratio(request.distortion.k2).Direction(request.towards_sun);
   const PrintEffects& e = request.effects;

@@ -40,13 +40,19 @@ Hash128 HashOf(const Settings& settings) {
   return hasher.Finish();
 }
 
+static void AddToHash(Hasher& hasher, const View& view, const Model& model) {
+  hasher.Tag(static_cast<std::uint8_t>(view.mode)).Tag(view.antialias).Tag(view.shadows);
+  hasher.Tag(view.textured).Tag(view.photo).Text(view.direction);
+  if (const ElementPtr camera = model.Current(view.camera)) hasher.Hash(camera->hash);
+}
+
 Hash128 HashOf(const State& state) {
   const auto& [model, drawing] = state;
   Hasher hasher;
   hasher.Hash(model.hash).Hash(HashOf(*drawing.settings)).Point(drawing.last_point);
   hasher.Hash(drawing.selection.HashIn(model.entries)).Hash(drawing.last.HashIn(model.entries));
-  hasher.Hash(drawing.names.hash()).Tag(static_cast<std::uint8_t>(drawing.view->mode));
-  hasher.Tag(drawing.view->antialias).Tag(drawing.view->shadows).Text(drawing.view->direction);
+  hasher.Hash(drawing.names.hash());
+  AddToHash(hasher, *drawing.view, model);
   if (const ElementPtr photograph = model.Current(drawing.photograph))
     hasher.Hash(photograph->hash);
   if (model.hidden_levels) {

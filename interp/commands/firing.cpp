@@ -130,15 +130,20 @@ std::optional<CommandError> NothingToMove(const Answers& answers) {
   for (std::size_t i = 0; i < answers.chosen.size(); ++i) {
     const model::Element& element = *answers.chosen[i];
     if (!IsOfPhotograph(element)) continue;
-    const bool is_group = std::holds_alternative<model::GroupPtr>(element.geometry);
-    return CommandError{
-        .code = Code::kWrongElement,
-        .message = fmt::format("{} has {}no place in space to be changed", NameForMessage(element),
-                               is_group ? "traces, with " : ""),
-        .help = std::holds_alternative<model::OrthophotoPtr>(element.geometry)
-                    ? "`construct orthophoto` makes another, of another facade or extent"
-                    : "attach or trace it again; `step camera` moves a camera",
-        .where = {Where::kChosen, static_cast<int>(i), {}}};
+    const std::string name = NameForMessage(element);
+    CommandError error{.code = Code::kWrongElement,
+                       .message = fmt::format("{} has no place in space to be changed", name),
+                       .help = "attach or trace it again; `step camera` moves a camera",
+                       .where = {Where::kChosen, static_cast<int>(i), {}}};
+    if (std::holds_alternative<model::GroupPtr>(element.geometry)) {
+      error.message = fmt::format("{} has traces, with no place in space to be changed", name);
+    } else if (std::holds_alternative<model::OrthophotoPtr>(element.geometry)) {
+      error.help = "`construct orthophoto` makes another, of another facade or extent";
+    } else if (std::holds_alternative<model::FacadePtr>(element.geometry)) {
+      error.message = fmt::format("what was drawn on {} would not move with it", name);
+      error.help = "`construct facade` makes another, in another place";
+    }
+    return error;
   }
   return NothingChosen(answers);
 }

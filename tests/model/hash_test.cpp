@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <set>
 
 #include "tests/model/shapes.h"
 
@@ -107,15 +108,29 @@ TEST(Hash, OfTheStateKnowsItsParts) {
   other.drawing.names.Bind(0, 1, other.model.entries);
   EXPECT_NE(HashOf(other), hash);
   other = state;
-  auto view = std::make_shared<View>();
-  view->direction = "top";
-  other.drawing.view = view;
-  EXPECT_NE(HashOf(other), hash);
-  other = state;
   auto settings = std::make_shared<Settings>();
   settings->angle_rad = 1;
   other.drawing.settings = settings;
   EXPECT_NE(HashOf(other), hash);
+}
+
+TEST(Hash, OfTheStateKnowsHowTheNextPictureLooks) {
+  const State state = With({}, {MakePoint(0), MakePoint(1)});
+  const View plain;
+  View direction, textured, photo, shadows, first, second;
+  direction.direction = "top";
+  textured.textured = true;
+  photo.photo = true;
+  shadows.shadows = true;
+  first.camera = 0;
+  second.camera = 1;
+  std::set<std::string> hashes;
+  for (const View& view : {plain, direction, textured, photo, shadows, first, second}) {
+    State other = state;
+    other.drawing.view = std::make_shared<const View>(view);
+    hashes.insert(Hex(HashOf(other)));
+  }
+  EXPECT_EQ(hashes.size(), 7);
 }
 
 TEST(Hash, OfTheStateIsFreeOfIds) {

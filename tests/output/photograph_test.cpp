@@ -298,6 +298,25 @@ TEST(Photograph, IsTheSameInTheCoordinatesOfASurvey) {
   EXPECT_LT(255 * sum / static_cast<double>(here.values.size()), 1);
 }
 
+TEST(PhotoRequest, DependsOnWhatIsSeenAlone) {
+  const model::PhotoRequest request = RequestOf(0, 0);
+  const auto with = [&](model::ElementPtr element) {
+    model::PhotoRequest more = request;
+    model::Edit edit;
+    edit.added = {std::move(element)};
+    more.model = model::Apply(model::State{request.model, {}}, edit).state.model;
+    return HashOf(more);
+  };
+  model::Attributes brick;
+  brick.material = "brick";
+  const model::ElementPtr wall = WallOf({20, 5, 0}, 3, 2);
+  const model::ElementPtr of_brick = ElementOf(wall->geometry, brick);
+  EXPECT_EQ(HashOf(request), with(LineOf({0, 0, 0}, {1, 0, 0})));
+  EXPECT_NE(HashOf(request), with(wall));
+  EXPECT_NE(with(wall), with(WallOf({21, 5, 0}, 3, 2)));
+  EXPECT_NE(with(wall), with(of_brick));
+}
+
 TEST(Photograph, ALensThatFoldsThePictureIsRefused) {
   const auto refused = TakePhotograph(RequestOf(-0.3, -0.3), 2);
   ASSERT_FALSE(refused);
