@@ -268,12 +268,47 @@ def m3_stl(program="FreeCAD"):
     return solid_bench("colonnade", "M3 to STL", 0.5, program, export=['export "colonnade.stl"'])
 
 
+EACH_WINDOW = "for i = 0 to 999 { let x = 0.2 + 0.8*floor(i/4); let z = 1 + 2.5*(i % 4); "
+
+
+def windows():
+    script = write("windows.trn", [
+        EACH_WINDOW + "place shape xy=x,-0.25,z dl=0.4 dl=0,0,1 dl=-0.4 reset as windows }",
+        "place wall thickness=0.5m height=12m openings=windows xy=0,0,0 xy=200,0,0 reset"])
+    return Bench("windows", "1 000 windows in a wall", tranos("run", script, "-o", "output"),
+                 seconds=0.2)
+
+
+def window_solids():
+    script = write("window_solids.trn", [
+        "place slab length=200m width=0.5m height=12m xy=0,0,0 as wall",
+        EACH_WINDOW + "place slab length=0.4m width=0.7m height=1m xy=x,-0.1,z as windows }",
+        "construct solid difference of=wall by=windows"])
+    return Bench("window_solids", "1 000 slabs cut from one", tranos("run", script, "-o", "output"),
+                 seconds=0.2)
+
+
+def cylinders():
+    script = write("cylinders.trn", chain(
+        ["place slab length=50m width=2m height=2m xy=0,0,0 as slab0"],
+        (f"place cylinder radius=0.15m height=3m xy={0.25 + 0.5 * i},1,-0.5 as drill{i}; "
+         f"construct solid difference of=slab{i} by=drill{i} as slab{i + 1}" for i in range(100))))
+    return Bench("cylinders", "100 cylinders cut from a slab in turn",
+                 tranos("run", script, "-o", "output"), seconds=2)
+
+
 def church():
     elements = FOLDER / "elements"
     elements.mkdir(exist_ok=True)
     shutil.copy(ROOT / "scripts" / "elements" / "church.trn", elements)
     return Bench("church", "Aghios Nikolaos Tranos, from text to GLB",
                  tranos("run", without_picture("tranos_church.trn"), "-o", "output"), seconds=3)
+
+
+def from_photo():
+    return Bench("from_photo", "Aghios Nikolaos Tranos, from its photograph",
+                 tranos("run", str(ROOT / "scripts" / "tranos_from_photo.trn"), "-o", "output"),
+                 seconds=10)
 
 
 def m1_freecad():
@@ -317,8 +352,8 @@ def diff():
 BENCHES: dict[str, Callable[[], Bench]] = {
     make.__name__: make
     for make in (start, points, points_lua, points_glb, loop, dome, picture, m1, m1_freecad,
-                 m1_blender, m2, m2_freecad, m2_blender, m3, m3_stl, m3_stl_blender, church, traces,
-                 replay, diff)}
+                 m1_blender, m2, m2_freecad, m2_blender, m3, m3_stl, m3_stl_blender, windows,
+                 window_solids, cylinders, church, from_photo, traces, replay, diff)}
 
 
 # ---- the table
