@@ -2,12 +2,27 @@
 # of each file's compile otherwise. A file still includes what it uses; debug builds check that.
 set(CMAKE_PCH_WARN_INVALID OFF)  # GCC reads the text where a target's flags differ, as CGAL's do
 
+set(precompiled Eigen/Core Eigen/Geometry algorithm functional map memory optional string
+  string_view tl/expected.hpp unordered_map variant vector)
+list(TRANSFORM precompiled REPLACE "(.+)" "<\\1>")
+
 if(TRANOS_PCH)
   add_library(tranos_precompiled OBJECT ${CMAKE_CURRENT_LIST_DIR}/precompiled_headers.cpp)
   target_link_libraries(tranos_precompiled PRIVATE tranos_flags)
-  target_precompile_headers(tranos_precompiled PRIVATE
-    <Eigen/Core> <Eigen/Geometry> <algorithm> <functional> <map> <memory> <optional> <string>
-    <string_view> <unordered_map> <tl/expected.hpp> <variant> <vector>)
+  target_precompile_headers(tranos_precompiled PRIVATE ${precompiled})
+endif()
+
+# Clang writes down where the header lies, so that no two clones have the same: ccache is to go by
+# the text that was read into it.
+if(TRANOS_PCH AND CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
+  list(TRANSFORM precompiled PREPEND "#include " OUTPUT_VARIABLE lines)
+  list(JOIN lines "\n" lines)
+  set(place ${CMAKE_BINARY_DIR}/CMakeFiles/tranos_precompiled.dir/cmake_pch.hxx)
+  file(WRITE ${place}.sum.cpp "${lines}\n")
+  execute_process(COMMAND ${CMAKE_CXX_COMPILER} -std=c++20 -isystem /usr/include/eigen3 -E -P
+    ${place}.sum.cpp OUTPUT_VARIABLE text COMMAND_ERROR_IS_FATAL ANY)
+  string(SHA256 sum "${text}")
+  file(WRITE ${place}.pch.sum "${sum}\n")
 endif()
 
 # Lets every target below the folder use the header.
