@@ -13,7 +13,8 @@ if(TRANOS_PCH)
 endif()
 
 # Clang writes down where the header lies, so that no two clones have the same: ccache is to go by
-# the text that was read into it.
+# the text that was read into it. Of `-include` it knows that the name below the source folder
+# counts, and Clang that the precompiled one lies beside it; CMake hides both behind `-Xclang`.
 if(TRANOS_PCH AND CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
   list(TRANSFORM precompiled PREPEND "#include " OUTPUT_VARIABLE lines)
   list(JOIN lines "\n" lines)
@@ -23,6 +24,7 @@ if(TRANOS_PCH AND CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
     ${place}.sum.cpp OUTPUT_VARIABLE text COMMAND_ERROR_IS_FATAL ANY)
   string(SHA256 sum "${text}")
   file(WRITE ${place}.pch.sum "${sum}\n")
+  set(CMAKE_CXX_COMPILE_OPTIONS_USE_PCH -include <PCH_HEADER>)
 endif()
 
 # Lets every target below the folder use the header.
