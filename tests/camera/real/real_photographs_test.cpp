@@ -9,6 +9,21 @@
 namespace tranos::camera::real {
 namespace {
 
+// Under sanitizers, which take twenty times as long, lines are sought on one photograph in eight,
+// and figures, being of all, are not asked for.
+#ifdef TRANOS_SANITIZED
+constexpr bool kFewPhotographs = true;
+#else
+constexpr bool kFewPhotographs = false;
+#endif
+std::vector<Known> SearchedForLines(const std::vector<Known>& photographs) {
+  std::vector<Known> searched;
+  for (std::size_t i = 0; i < photographs.size(); i += kFewPhotographs ? 8 : 1) {
+    searched.push_back(photographs[i]);
+  }
+  return searched;
+}
+
 class RealPhotographs : public testing::Test {
  protected:
   void SetUp() override {
@@ -100,7 +115,7 @@ TEST_F(RealPhotographs, OfATowerGiveTheSameCameraAsAnIndependentSolution) {
 // Nothing traced by hand. What docs/camera.md tells, a photograph or two less.
 TEST_F(RealPhotographs, OfYorkGiveTheirDirectionsByTheLinesFoundOnThem) {
   Errors found, true_directions;
-  for (const Known& known : YorkUrban(data())) {
+  for (const Known& known : SearchedForLines(YorkUrban(data()))) {
     const auto lines = DetectLines(PhotoOf(known));
     ASSERT_TRUE(lines) << known.name;
     const auto directions = FindVanishingDirections(*lines, known.frame);
@@ -109,6 +124,7 @@ TEST_F(RealPhotographs, OfYorkGiveTheirDirectionsByTheLinesFoundOnThem) {
     true_directions.Add(FoundCamera(TracedLines(known, *lines, AxesByLabels(known, *lines))),
                         known);
   }
+  if (kFewPhotographs) return;
   EXPECT_GE(found.DirectionsWithin(2), 0.80);
   EXPECT_GE(found.DirectionsWithin(5), 0.93);
   EXPECT_GE(found.HorizonArea(0.25), 0.91);
@@ -117,7 +133,7 @@ TEST_F(RealPhotographs, OfYorkGiveTheirDirectionsByTheLinesFoundOnThem) {
 }
 
 TEST_F(RealPhotographs, OfTheCastleGiveTheirCamerasByTheLinesFoundOnThem) {
-  const std::vector<Known> castle = Castle(data());
+  const std::vector<Known> castle = SearchedForLines(Castle(data()));
   std::vector<Found> found;
   for (const Known& known : castle) {
     const auto lines = DetectLines(PhotoOf(known));
@@ -126,6 +142,7 @@ TEST_F(RealPhotographs, OfTheCastleGiveTheirCamerasByTheLinesFoundOnThem) {
     ASSERT_TRUE(directions) << known.name;
     found.push_back(FoundCamera(TracedLines(known, *lines, directions->axis)));
   }
+  if (kFewPhotographs) return;
   EXPECT_LE(Quantile(FocalErrors(found, castle, Loose::kCounts), 0.5), 0.03);
   EXPECT_LE(Quantile(UprightErrors(found, castle), 0.5), 0.8);
   EXPECT_LE(Quantile(RotationErrors(found, castle, 4), 0.5), 1.2);
