@@ -298,9 +298,7 @@ def cylinders():
 
 
 def church():
-    elements = FOLDER / "elements"
-    elements.mkdir(exist_ok=True)
-    shutil.copy(ROOT / "scripts" / "elements" / "church.trn", elements)
+    shutil.copytree(ROOT / "scripts" / "elements", FOLDER / "elements", dirs_exist_ok=True)
     return Bench("church", "Aghios Nikolaos Tranos, from text to GLB",
                  tranos("run", without_picture("tranos_church.trn"), "-o", "output"), seconds=3)
 
