@@ -56,6 +56,10 @@ ConditionedCamera Mirrored(const ConditionedCamera& camera, const Vec3& centre_m
 
 }  // namespace
 
+bool IsUsual(const Mat3& camera_from_world) {
+  return camera_from_world(1, 2) < 0 && camera_from_world(0, 0) >= 0;
+}
+
 Mat3 NearestRotation(const Mat3& matrix) {
   const Eigen::JacobiSVD<Mat3> svd(matrix, Eigen::ComputeFullU | Eigen::ComputeFullV);
   const Vec3 sign(1, 1, (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0 ? -1 : 1);
@@ -139,7 +143,7 @@ std::optional<double> FacadeWithMost(const SpaceTraces& traces) {
 }
 
 geom::Result<Vec3> PositionFromTraces(const SpaceTraces& traces, const Mat3& inverse_calibration,
-                                      const Mat3& camera_from_world) {
+                                      const Mat3& camera_from_world, OpenPosition open) {
   // About their centre, so that a world with large coordinates loses no digits.
   SpaceTraces centred = traces;
   const Vec3 centre = traces.centre_m();
@@ -148,14 +152,17 @@ geom::Result<Vec3> PositionFromTraces(const SpaceTraces& traces, const Mat3& inv
   ProjectionMatrix projection;
   projection.leftCols<3>() = inverse_calibration.inverse() * camera_from_world;
   const Eigen::Matrix<double, 9, 1> m = projection.leftCols<3>().reshaped();
+  constexpr double kAssumed_m = 10;
+  const Vec3 ahead = inverse_calibration.inverse() * Vec3(0, 0, kAssumed_m);
   for (int i = 0; i < 3; ++i) {
     const ProjectionRows rows = ProjectionRowsOf(centred, i == 0 ? nullptr : &projection);
-    if (rows.rows() < 3 || !rows.allFinite())
+    if (!rows.allFinite()) return Degenerate("edges and points do not determine the position");
+    Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> rank(rows.rightCols<3>());
+    rank.setThreshold(kRank);
+    if (rank.rank() < 3 && open == OpenPosition::kRefused)
       return Degenerate("edges and points do not determine the position");
-    Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(rows.rightCols<3>());
-    qr.setThreshold(kRank);
-    if (qr.rank() < 3) return Degenerate("edges and points do not determine the position");
-    projection.col(3) = qr.solve(-rows.leftCols<9>() * m);
+    // What they leave open stays as if their centre were straight ahead.
+    projection.col(3) = ahead + rank.solve(-rows.leftCols<9>() * m - rows.rightCols<3>() * ahead);
   }
   return Vec3(centre - camera_from_world.transpose() * (inverse_calibration * projection.col(3)));
 }
@@ -185,11 +192,11 @@ geom::Result<ConditionedCamera> PoseFromDirections(const Mat3& inverse_calibrati
     if (signed_axes.determinant() < 0) signed_axes.col(third) *= -1;
     const Mat3 r = NearestRotation(signed_axes);
     if (traces.empty()) {
-      if (r(1, 2) < 0 && r(0, 0) >= 0)
-        return ConditionedCamera{inverse_calibration, r, {0, -10, 0}};
+      if (IsUsual(r)) return ConditionedCamera{inverse_calibration, r, {0, -10, 0}};
       continue;
     }
-    const geom::Result<Vec3> position = PositionFromTraces(traces, inverse_calibration, r);
+    const geom::Result<Vec3> position =
+        PositionFromTraces(traces, inverse_calibration, r, OpenPosition::kAssumed);
     if (!position) return tl::unexpected(position.error());
     const ConditionedCamera camera{inverse_calibration, r, *position};
     const double penalty = PenaltyOf(traces, camera);

@@ -3,6 +3,7 @@
 // points in space.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <span>
 
@@ -43,10 +44,17 @@ geom::Result<Mat3> FacadeHomography(const SpaceTraces& traces, double y_m);
 // from the front. None if no edge or point lies in such a plane with three others.
 std::optional<double> FacadeWithMost(const SpaceTraces& traces);
 
+// Whether a camera is upright and has X to its right, as is supposed where nothing tells the signs
+// of the axes.
+bool IsUsual(const Mat3& camera_from_world);
+
 // The position, m, with K and R given: least squares of edges and points, linear, weighted anew by
-// the depths found. Error kDegenerate: they leave it open.
+// the depths found. Where they leave it open, as a single point does: the place that they allow
+// from which their centre is most nearly straight ahead, 10 m away, or the error kDegenerate.
+enum class OpenPosition : std::uint8_t { kRefused, kAssumed };
 geom::Result<Vec3> PositionFromTraces(const SpaceTraces& traces, const Mat3& inverse_calibration,
-                                      const Mat3& camera_from_world);
+                                      const Mat3& camera_from_world,
+                                      OpenPosition open = OpenPosition::kRefused);
 
 // The pose from two or three vanishing points of the world's axes (any sign) and the edges and
 // points. Of the four ways to sign the axes, the one with the least penalty and all in front.

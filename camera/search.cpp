@@ -7,6 +7,7 @@
 
 #include "camera/estimation.h"
 #include "camera/likelihood.h"
+#include "camera/pose.h"
 #include "camera/space_traces.h"
 #include "camera/start.h"
 #include "camera/trace_checks.h"
@@ -82,19 +83,32 @@ bool SeesAll(const Task& task, const Refined& refined) {
   return SeesFacades(task.photographs, task.layout, refined.numbers, refined.state);
 }
 
-bool HasView(const Task& task, const Refined& refined) {
+namespace {
+
+// Whether priors and data determine all parameters of cameras that are meant.
+bool Determines(const Task& task, const Refined& refined, bool (*is_meant)(int parameter)) {
   const auto at = LineariseAt(task, refined);
   if (!at) return false;
   const std::vector<bool> determined =
       DeterminedOf(task.photographs, task.unknowns, task.layout, refined, *at)
           .determination.with_priors;
   for (int i = 0; i < task.layout.unknown_column(); ++i) {
-    if (i % kParameters < kX0 && !determined[i]) return false;
+    if (is_meant(i % kParameters) && !determined[i]) return false;
   }
   return true;
 }
 
+}  // namespace
+
+bool HasView(const Task& task, const Refined& refined) {
+  return Determines(task, refined, [](int parameter) { return parameter < kX0; });
+}
+
 namespace {
+
+bool HasPosition(const Task& task, const Refined& refined) {
+  return Determines(task, refined, [](int parameter) { return parameter >= kX0; });
+}
 
 bool AreOnePose(const Camera& a, const Camera& b) {
   const Mat3 turn = CameraFromWorld(a.parameters) * CameraFromWorld(b.parameters).transpose();
@@ -108,12 +122,12 @@ bool IsOne(const Refined& a, const Refined& b) {
 
 constexpr double kWithinNoise = 9;
 
-// A pose is another one if it is not yet known and sees what is traced. Where nothing traced has a
-// place there is none: where the camera stood is open, and so is which way it looked along an axis.
+// A pose is another one if it is not yet known and sees what is traced. Where it is open how far
+// off the camera stood there is none, for so is which way it looked along an axis.
 void AddOther(const Task& task, const Refined& best, Refined pose, std::vector<Refined>* others) {
   const Photograph& photograph = task.photographs[0];
   const bool has_place =
-      WorldIsFixed(photograph) || std::ranges::any_of(photograph.traces, [](const Trace& trace) {
+      HasPosition(task, best) || std::ranges::any_of(photograph.traces, [](const Trace& trace) {
         const auto* rectangle = std::get_if<RectangleTrace>(&trace);
         return rectangle && rectangle->facade == 0;
       });
@@ -294,6 +308,16 @@ void LookAgain(const Task& task, std::vector<Refined>* refined) {
   std::ranges::stable_sort(*refined, {}, &Refined::cost);
 }
 
+// Brings a usual pose to the front where others are equal but for rounding: what is traced may not
+// tell the signs of the axes.
+void PreferUsual(std::vector<Refined>* refined) {
+  const double equal = refined->front().cost * (1 + 1e-6) + 1e-6;
+  const auto usual = std::ranges::find_if(*refined, [&](const Refined& pose) {
+    return pose.cost <= equal && IsUsual(CameraFromWorld(CameraAt(pose.state, 0).parameters));
+  });
+  if (usual != refined->end()) std::rotate(refined->begin(), usual, usual + 1);
+}
+
 geom::Result<Adjusted> AdjustOne(const Task& task, const Numbers& numbers,
                                  const Eigen::VectorXd& u) {
   const std::vector<Camera> starts = Starts(task.photographs[0], numbers);
@@ -316,6 +340,7 @@ geom::Result<Adjusted> AdjustOne(const Task& task, const Numbers& numbers,
   std::vector<Refined> refined = Settle(task, found);
   if (!refined.empty() && !task.unknowns.empty()) LookAgain(task, &refined);
   if (refined.empty()) return tl::unexpected(Error{ErrorCode::kDegenerate, "no camera fits"});
+  PreferUsual(&refined);
   Adjusted adjusted{std::move(refined.front()), {}};
   for (std::size_t i = 1; i < refined.size(); ++i) {
     if (refined[i].cost > adjusted.best.cost + kWithinNoise) break;

@@ -33,6 +33,11 @@ class WallPlan {
   Vec3 Rightward(std::size_t part) const { return Along(part).cross(up_); }
 
   Result<Offsets> Offset() const {
+    double length_m = 0;
+    for (std::size_t k = 0; k < Count(); ++k) {
+      length_m += (wall_.line[After(k)] - wall_.line[k]).norm();
+    }
+    if (wall_.left_m + wall_.right_m > length_m + kCoincident_m) return TooThick(0);
     Offsets offsets;
     for (std::size_t i = 0; i < wall_.line.size(); ++i) {
       const bool starts = !wall_.closed && i == 0, ends = !wall_.closed && i == Count();

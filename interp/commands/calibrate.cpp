@@ -14,6 +14,7 @@
 #include "interp/commands/families.h"
 #include "interp/commands/firing.h"
 #include "interp/commands/photographs.h"
+#include "model/facades.h"
 
 namespace tranos::interp {
 
@@ -103,11 +104,19 @@ tl::expected<Score, CommandError> ScoreOf(const State& state, const Answers& ans
   const Facades facades = FacadesOf(state, photograph.id);
   const std::string name = answers.Text("facade");
   const Facade* facade = facades.Find(name);
-  if (!name.empty() && !facade) return Fail(NoFacade(name, facades));
+  const model::ElementPtr found = name.empty() ? nullptr : model::FindFacade(state.model, name);
+  const auto* known =
+      found && model::FacadeOf(*found).solved < 0 ? &model::FacadeOf(*found) : nullptr;
+  if (!name.empty() && !facade && !known) return Fail(NoFacade(name, facades));
   if (facade && facade->rectangle) {
     return [rectangle = *facade->rectangle,
             frame = PhotographOf(photograph).frame](const camera::Camera& camera) {
       return IsBefore(camera, frame, rectangle) ? 0.0 : 1.0;
+    };
+  }
+  if (known) {
+    return [plane = known->plane](const camera::Camera& camera) {
+      return plane.z().dot(camera.position_m() - plane.origin) > 0 ? 0.0 : 1.0;
     };
   }
   if (facade && (facades.world_is_fixed || facade != facades.named.data())) {

@@ -25,8 +25,8 @@ namespace {
 
 using Kind = Trace::Kind;
 
-// Dots are written with so many digits, so that what is found is what a script holds.
-constexpr double kPerPixel = 1000;
+// Dots lie on a binary grid, which a script and a journal both hold to the last digit.
+constexpr double kPerPixel = 256;
 Vec2 Rounded(const Vec2& dot_px) {
   return (kPerPixel * dot_px).array().round().matrix() / kPerPixel;
 }

@@ -195,6 +195,21 @@ tl::expected<PhotographFile, CommandError> PictureMeant(const State& state, cons
                .help = "`render photo camera=… as p` takes one"});
 }
 
+// Where one side is the longer of the picture and the other that of the format, and turned they
+// would agree better.
+std::optional<CommandError> FormatAcross(const camera::Frame& frame) {
+  const double picture = std::log(static_cast<double>(frame.size_px.x()) / frame.size_px.y());
+  const double format = std::log(frame.size_mm.x() / frame.size_mm.y());
+  if (picture * format >= 0 || std::abs(picture - format) < std::log(1.2)) return std::nullopt;
+  return CommandError{
+      .code = Code::kFormatAcross,
+      .message = fmt::format("the photograph is {} by {} pixels, and its format lies across that",
+                             frame.size_px.x(), frame.size_px.y()),
+      .help = fmt::format("the width comes first: format={:g}mm,{:g}mm", frame.size_mm.y(),
+                          frame.size_mm.x()),
+      .where = {Where::kKey, 0, "format"}};
+}
+
 CommandResult AttachPhoto(const State& state, const Answers& answers,
                           const Surroundings& surroundings) {
   const std::string file = answers.Text("file");
@@ -220,8 +235,10 @@ CommandResult AttachPhoto(const State& state, const Answers& answers,
   } else if (read->camera) {
     if (auto error = TakeCamera(*read->camera, file, "file", &photograph)) return Fail(*error);
   }
+  const auto across = FormatAcross(photograph.frame);
   Fired fired = *Make(state, std::make_shared<const model::Photograph>(std::move(photograph)));
   fired.edit.photograph = model::kAddedBase;
+  if (across) fired.warnings.push_back(*across);
   return fired;
 }
 

@@ -137,9 +137,10 @@ tl::expected<camera::PhotoPtr, CommandError> PixelsOf(const model::Element& phot
 
 namespace {
 
-// In pixels, how far outside a dot is to either side.
+// In pixels, how far outside a dot is to either side. Pixels have their middles at whole numbers.
 geom::Vec2 Beyond(const camera::Frame& frame, const geom::Vec2& dot_px) {
-  return (-dot_px).cwiseMax(dot_px - frame.size_px.cast<double>()).cwiseMax(0);
+  const geom::Vec2 from_corner = dot_px.array() + 0.5;
+  return (-from_corner).cwiseMax(from_corner - frame.size_px.cast<double>()).cwiseMax(0);
 }
 
 std::string SizeOf(const camera::Frame& frame) {

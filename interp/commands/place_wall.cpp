@@ -115,21 +115,28 @@ tl::expected<WallOpening, CommandError> OpeningOf(const WallShape& wall,
   double least = std::numeric_limits<double>::infinity();
   const Vec3 up = wall.base.z();
   for (std::size_t k = 0; k < wall.PartCount(); ++k) {
-    const Vec3 along = (wall.line[(k + 1) % wall.line.size()] - wall.line[k]).normalized();
+    const Vec3 part = wall.line[(k + 1) % wall.line.size()] - wall.line[k];
+    const Vec3 along = part.normalized();
     const Vec3 across = along.cross(up);
     double farthest = 0;
     std::vector<Vec2> flat;
+    Eigen::AlignedBox2d box;
     for (const Vec3& p : *points) {
       const Vec3 d = p - wall.line[k];
       farthest = std::max(farthest, std::abs(d.dot(across)));
-      flat.emplace_back(d.dot(along), d.dot(up));
+      box.extend(flat.emplace_back(d.dot(along), d.dot(up)));
     }
-    if (farthest < least) least = farthest, opening = {k, std::move(flat)};
+    // Beside the part it would cut nothing.
+    const Eigen::AlignedBox2d face(Vec2(0, 0), Vec2(part.norm(), wall.height_m));
+    if (farthest < least && face.intersection(box).volume() > 0) {
+      least = farthest, opening = {k, std::move(flat)};
+    }
   }
   if (least <= std::max(wall.left_m, wall.right_m) + 0.01) return opening;
   return Fail({.code = Code::kOutOfRange,
                .message = fmt::format("{} stands on no face of the wall", NameForMessage(element)),
-               .help = "openings are outlines in the wall's upright plane: `set plane front`",
+               .help = "openings are outlines in the wall's upright plane, between its ends: `set "
+                       "plane front`",
                .where = AtKey("openings")});
 }
 
