@@ -12,10 +12,9 @@ if(TRANOS_PCH)
   target_precompile_headers(tranos_precompiled PRIVATE ${precompiled})
 endif()
 
-# Clang writes down where the header lies, so that no two clones have the same: ccache is to go by
-# the text that was read into it. Of `-include` it knows that the name below the source folder
-# counts, and Clang that the precompiled one lies beside it; CMake hides both behind `-Xclang`.
-if(TRANOS_PCH AND CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
+# No two clones have the same precompiled header: Clang writes down where it lies, and GCC's differs
+# by itself. So ccache is to go by the text that was read into it.
+if(TRANOS_PCH)
   list(TRANSFORM precompiled PREPEND "#include " OUTPUT_VARIABLE lines)
   list(JOIN lines "\n" lines)
   set(place ${CMAKE_BINARY_DIR}/CMakeFiles/tranos_precompiled.dir/cmake_pch.hxx)
@@ -23,7 +22,12 @@ if(TRANOS_PCH AND CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
   execute_process(COMMAND ${CMAKE_CXX_COMPILER} -std=c++20 -isystem /usr/include/eigen3 -E -P
     ${place}.sum.cpp OUTPUT_VARIABLE text COMMAND_ERROR_IS_FATAL ANY)
   string(SHA256 sum "${text}")
+  file(WRITE ${place}.gch.sum "${sum}\n")
   file(WRITE ${place}.pch.sum "${sum}\n")
+endif()
+# Of `-include` ccache knows that a name below the source folder counts without it, and Clang that
+# the precompiled one lies beside it; CMake hides both behind `-Xclang`.
+if(CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
   set(CMAKE_CXX_COMPILE_OPTIONS_USE_PCH -include <PCH_HEADER>)
 endif()
 
