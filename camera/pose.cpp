@@ -157,12 +157,12 @@ geom::Result<Vec3> PositionFromTraces(const SpaceTraces& traces, const Mat3& inv
   for (int i = 0; i < 3; ++i) {
     const ProjectionRows rows = ProjectionRowsOf(centred, i == 0 ? nullptr : &projection);
     if (!rows.allFinite()) return Degenerate("edges and points do not determine the position");
-    Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> rank(rows.rightCols<3>());
-    rank.setThreshold(kRank);
-    if (rank.rank() < 3 && open == OpenPosition::kRefused)
+    Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> seen(rows.rightCols<3>());
+    seen.setThreshold(kRank);
+    if (seen.rank() < 3 && open == OpenPosition::kRefused)
       return Degenerate("edges and points do not determine the position");
     // What they leave open stays as if their centre were straight ahead.
-    projection.col(3) = ahead + rank.solve(-rows.leftCols<9>() * m - rows.rightCols<3>() * ahead);
+    projection.col(3) = ahead + seen.solve(-rows.leftCols<9>() * m - rows.rightCols<3>() * ahead);
   }
   return Vec3(centre - camera_from_world.transpose() * (inverse_calibration * projection.col(3)));
 }

@@ -48,10 +48,11 @@ std::optional<double> FacadeWithMost(const SpaceTraces& traces);
 // of the axes.
 bool IsUsual(const Mat3& camera_from_world);
 
+// What becomes of a position that edges and points leave open.
+enum class OpenPosition : std::uint8_t { kRefused, kAssumed };
 // The position, m, with K and R given: least squares of edges and points, linear, weighted anew by
 // the depths found. Where they leave it open, as a single point does: the place that they allow
 // from which their centre is most nearly straight ahead, 10 m away, or the error kDegenerate.
-enum class OpenPosition : std::uint8_t { kRefused, kAssumed };
 geom::Result<Vec3> PositionFromTraces(const SpaceTraces& traces, const Mat3& inverse_calibration,
                                       const Mat3& camera_from_world,
                                       OpenPosition open = OpenPosition::kRefused);

@@ -128,7 +128,7 @@ tl::expected<WallOpening, CommandError> OpeningOf(const WallShape& wall,
     }
     // Beside the part it would cut nothing.
     const Eigen::AlignedBox2d face(Vec2(0, 0), Vec2(part.norm(), wall.height_m));
-    if (farthest < least && face.intersection(box).volume() > 0) {
+    if (farthest < least && face.intersection(box).sizes().minCoeff() > 0) {
       least = farthest, opening = {k, std::move(flat)};
     }
   }
