@@ -24,8 +24,7 @@ interp::ScriptResult RunOn(const std::string& photo, const std::string& text) {
 
 std::string LineOf(const Trace& trace, std::string_view words, std::string_view name, int number) {
   std::string text = fmt::format("{} samples={:.0f}", words, trace.samples);
-  for (const geom::Vec2& dot : trace.dots_px)
-    text += fmt::format(" dot={},{}", dot.x(), dot.y());
+  for (const geom::Vec2& dot : trace.dots_px) text += fmt::format(" dot={},{}", dot.x(), dot.y());
   return text + fmt::format(" as {}{}\n", name, number);
 }
 

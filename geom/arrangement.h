@@ -80,4 +80,7 @@ class Arrangement {
 // meet anywhere but in common corners and edges; exact.
 bool HasCrossing(const Soup& soup, const std::vector<bool>& is_suspect = {});
 
+// Whether a corner lies nearer than kCoincident_m to a triangle, but not in it.
+bool HasNearMiss(const Soup& soup);
+
 }  // namespace tranos::geom

@@ -7,6 +7,7 @@
 
 #include "geom/arrangement.h"
 #include "geom/box_tree.h"
+#include "geom/conform.h"
 #include "geom/plane_regions.h"
 #include "geom/solid_expression.h"
 #include "geom/solid_rounding.h"
@@ -18,14 +19,15 @@ namespace {
 
 using Leaf = std::shared_ptr<const TriangleMesh>;
 
-// Leaves whose boxes meet, directly or through others, in the order of their first ones. What
-// belongs to different lots never meets.
+// Leaves whose boxes all but meet, directly or through others, in the order of their first ones.
+// What belongs to different lots never meets.
 std::vector<std::vector<std::uint32_t>> LotsOf(const SolidExpression& expression) {
   const std::vector<Leaf>& leaves = expression.leaves();
   std::vector<Box> boxes;
   for (std::uint32_t i = 0; i < leaves.size(); ++i) {
     const Box box = BoundingBox(*leaves[i]), &relevant = expression.RelevantPartOf(i);
-    boxes.push_back({box.min.cwiseMax(relevant.min), box.max.cwiseMin(relevant.max)});
+    boxes.push_back({box.min.cwiseMax(relevant.min).array() - kCoincident_m / 2,
+                     box.max.cwiseMin(relevant.max).array() + kCoincident_m / 2});
   }
   const BoxTree tree(boxes);
   UnionFind lots(leaves.size());
@@ -43,12 +45,16 @@ std::vector<std::vector<std::uint32_t>> LotsOf(const SolidExpression& expression
 class LotEvaluation {
  public:
   LotEvaluation(const std::vector<Leaf>& leaves, const std::vector<std::uint32_t>& lot,
-                SolidExpression* expression)
-      : lot_(lot), expression_(*expression), arrangement_(SoupOf(leaves), false) {
-    for (const std::uint32_t leaf : lot) boxes_.push_back(BoundingBox(*leaves[leaf]));
+                SolidExpression* expression, bool conforms)
+      : lot_(lot), expression_(*expression), arrangement_(SoupOf(leaves, conforms), false) {
+    for (const std::uint32_t leaf : lot) {
+      const Box box = BoundingBox(*leaves[leaf]);
+      boxes_.push_back({box.min.array() - kCoincident_m, box.max.array() + kCoincident_m});
+    }
   }
 
-  Result<TriangleMesh> Surface() {
+  // Not closed where the leaves, as merged and carried to doubles, cross themselves.
+  Result<std::vector<SurfacePiece>> Pieces() {
     const std::vector<std::uint32_t> patches = PatchesOf(arrangement_);
     std::vector<Side> sides(patches.size());
     const std::vector<std::uint32_t> largest = LargestPieces(patches);
@@ -71,14 +77,37 @@ class LotEvaluation {
       if (surface.turned) std::swap(surface.corners[1], surface.corners[2]);
       kept.push_back(surface);
     }
-    return Rounded(arrangement_, MergePlanes(arrangement_, std::move(kept)));
+    return kept;
+  }
+  Result<TriangleMesh> Surface(std::vector<SurfacePiece> pieces) const {
+    return Rounded(arrangement_, MergePlanes(arrangement_, std::move(pieces)));
   }
 
  private:
   // Where the solid is, seen from a piece.
   enum class Side : std::uint8_t { kNeither, kBack, kFront };
 
-  Soup SoupOf(const std::vector<Leaf>& leaves) {
+  Soup SoupOf(const std::vector<Leaf>& leaves, bool conforms) {
+    Soup soup = MergedLeaves(leaves);
+    if (!conforms) return soup;
+    TriangleMesh mesh{std::move(soup.positions), {}, {}};
+    for (std::uint32_t f = 0; f < soup.facets.size(); ++f) {
+      mesh.triangles.push_back(soup.facets[f].corners);
+      mesh.surfaces.push_back(f);
+    }
+    mesh = Conformed(std::move(mesh));
+    Soup conformed{std::move(mesh.positions), {}};
+    std::vector<std::uint32_t> surfaces;
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+      const std::uint32_t f = mesh.surfaces[i];
+      conformed.facets.push_back({mesh.triangles[i], soup.facets[f].mesh, soup.facets[f].is_idle});
+      surfaces.push_back(surfaces_[f]);
+    }
+    surfaces_ = std::move(surfaces);
+    return conformed;
+  }
+
+  Soup MergedLeaves(const std::vector<Leaf>& leaves) {
     Soup soup;
     PositionIndex index;
     for (std::uint32_t i = 0; i < lot_.size(); ++i) {
@@ -191,6 +220,24 @@ class LotEvaluation {
   std::map<SurfaceKey, std::uint32_t> surface_numbers_;
 };
 
+bool AreClosed(const std::vector<SurfacePiece>& pieces) {
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  triangles.reserve(pieces.size());
+  for (const SurfacePiece& piece : pieces) triangles.push_back(piece.corners);
+  return IsClosed(triangles);
+}
+
+Result<TriangleMesh> SurfaceOf(const std::vector<Leaf>& leaves,
+                               const std::vector<std::uint32_t>& lot, SolidExpression* expression) {
+  for (const bool conforms : {false, true}) {
+    LotEvaluation evaluation(leaves, lot, expression, conforms);
+    auto pieces = evaluation.Pieces();
+    if (!pieces) return tl::unexpected(pieces.error());
+    if (AreClosed(*pieces)) return evaluation.Surface(std::move(*pieces));
+  }
+  return tl::unexpected(Error{ErrorCode::kDegenerate, "its surface does not close"});
+}
+
 }  // namespace
 
 Result<TriangleMesh> Evaluate(const Solid& solid) {
@@ -202,7 +249,7 @@ Result<TriangleMesh> Evaluate(const Solid& solid) {
       if (expression->Contains(lot)) result.Append(*expression->leaves()[lot[0]]);
       continue;
     }
-    const auto part = LotEvaluation(expression->leaves(), lot, &*expression).Surface();
+    const auto part = SurfaceOf(expression->leaves(), lot, &*expression);
     if (!part) return part;
     result.Append(*part);
   }

@@ -103,6 +103,17 @@ bool AreSurelyApart(const Sided& s, const Sided& t, int shared) {
   return above(p) != above(q);
 }
 
+// Whether p lies so near to the triangle's inside, but not in its plane.
+bool MissesNarrowly(const Vec3& p, const Triangle& t) {
+  const Vec3 normal = AreaVector(t);
+  const double height = normal.dot(p - t.a);
+  if (!(height * height <= kCoincident_m * kCoincident_m * normal.squaredNorm())) return false;
+  for (int i = 0; i < 3; ++i) {
+    if (normal.dot((t[(i + 1) % 3] - t[i]).cross(p - t[i])) < 0) return false;
+  }
+  return SideOf(t.a, t.b, t.c, p) != 0;
+}
+
 CGAL::Comparison_result CompareAlong(const Point& p, const Point& q, int axis) {
   if (axis == 0) return CGAL::compare_x(p, q);
   return axis == 1 ? CGAL::compare_y(p, q) : CGAL::compare_z(p, q);
@@ -197,6 +208,21 @@ bool HasCrossing(const Soup& soup, const std::vector<bool>& is_suspect) {
       if (found || t == s || (t < s && suspect(t))) return;
       std::uint32_t from = kNoCorner, to = kNoCorner;
       found = finder.Meet(s, t, &from, &to) != CrossingFinder::Meeting::kApart;
+    });
+  }
+  return found;
+}
+
+bool HasNearMiss(const Soup& soup) {
+  const BoxTree tree(BoxesOf(soup));
+  const Vec3 reach = Vec3::Constant(kCoincident_m);
+  bool found = false;
+  for (std::uint32_t i = 0; i < soup.positions.size() && !found; ++i) {
+    const Vec3& p = soup.positions[i];
+    tree.ForEachMeeting({p - reach, p + reach}, [&](std::uint32_t f) {
+      const Corners& c = soup.facets[f].corners;
+      if (found || std::find(c.begin(), c.end(), i) != c.end()) return;
+      found = MissesNarrowly(p, TriangleOf(soup, f));
     });
   }
   return found;

@@ -43,6 +43,10 @@ class Solid {
   std::shared_ptr<const Node> node_;
 };
 
+// m³ that the solids fill together: what lies in several counts once. Those whose boxes only touch
+// are not looked at further.
+Result<double> FilledVolume(const std::vector<Solid>& solids);
+
 struct Solid::Node {
   Kind kind;
   std::vector<Solid> parts = {};  // of a difference the first is what the others are cut from

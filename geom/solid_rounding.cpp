@@ -5,6 +5,8 @@
 #include <cmath>
 #include <map>
 
+#include "geom/conform.h"
+
 namespace tranos::geom {
 
 namespace {
@@ -98,15 +100,19 @@ bool RemoveOneRoundOfLines(TriangleMesh* mesh) {
   return true;
 }
 
-bool HasCrossingAt(const TriangleMesh& mesh, const std::vector<bool>& is_rounded) {
+Soup SoupOf(const TriangleMesh& mesh) {
   Soup soup{mesh.positions, {}};
+  for (const Corners& t : mesh.triangles) soup.facets.push_back({t, 0});
+  return soup;
+}
+
+bool HasCrossingAt(const TriangleMesh& mesh, const std::vector<bool>& is_rounded) {
   std::vector<bool> is_suspect;
   for (const Corners& t : mesh.triangles) {
-    soup.facets.push_back({t, 0});
     is_suspect.push_back(is_rounded.empty() || is_rounded[t[0]] || is_rounded[t[1]] ||
                          is_rounded[t[2]]);
   }
-  return HasCrossing(soup, is_suspect);
+  return HasCrossing(SoupOf(mesh), is_suspect);
 }
 
 void RemoveLines(TriangleMesh* mesh) {
@@ -141,9 +147,7 @@ TriangleMesh MeshOf(const Arrangement& arrangement, const std::vector<SurfacePie
 }
 
 Result<TriangleMesh> CutAgain(const TriangleMesh& mesh) {
-  Soup soup{mesh.positions, {}};
-  for (const Corners& t : mesh.triangles) soup.facets.push_back({t, 0});
-  const Arrangement arrangement(std::move(soup), true);
+  const Arrangement arrangement(SoupOf(mesh), true);
   const std::vector<std::uint32_t> patches = PatchesOf(arrangement);
   std::vector<int> side(patches.size());  // 1: the inside is behind; −1: in front
   std::vector<SurfacePiece> kept;
@@ -174,13 +178,13 @@ std::uint32_t PositionIndex::Of(const Vec3& p, std::vector<Vec3>* list) {
   constexpr double kCell_m = 1e-6;
   const auto floor = [](double x) { return static_cast<std::int64_t>(std::floor(x / kCell_m)); };
   std::array<std::array<std::int64_t, 2>, 3> range;
-  for (int k = 0; k < 3; ++k) range[k] = {floor(p[k] - kCoincident_m), floor(p[k] + kCoincident_m)};
+  for (int k = 0; k < 3; ++k) range[k] = {floor(p[k] - reach_m_), floor(p[k] + reach_m_)};
   for (std::int64_t x = range[0][0]; x <= range[0][1]; ++x) {
     for (std::int64_t y = range[1][0]; y <= range[1][1]; ++y) {
       for (std::int64_t z = range[2][0]; z <= range[2][1]; ++z) {
         const auto [begin, end] = numbers_.equal_range({x, y, z});
         for (auto at = begin; at != end; ++at) {
-          if (((*list)[at->second] - p).norm() <= kCoincident_m) return at->second;
+          if (((*list)[at->second] - p).norm() <= reach_m_) return at->second;
         }
       }
     }
@@ -191,16 +195,31 @@ std::uint32_t PositionIndex::Of(const Vec3& p, std::vector<Vec3>* list) {
   return number;
 }
 
-TriangleMesh Tidied(TriangleMesh mesh) {
-  PositionIndex index;
+TriangleMesh Merged(TriangleMesh mesh, double reach_m) {
+  PositionIndex index(reach_m);
   std::vector<Vec3> positions;
   std::vector<std::uint32_t> number;
   number.reserve(mesh.positions.size());
   for (const Vec3& p : mesh.positions) number.push_back(index.Of(p, &positions));
   mesh.positions = std::move(positions);
-  const auto is_narrow = [&](const Corners& t) { return HasTwice(t) || IsLine(mesh, t); };
-  for (Corners& t : mesh.triangles) t = {number[t[0]], number[t[1]], number[t[2]]};
-  if (std::any_of(mesh.triangles.begin(), mesh.triangles.end(), is_narrow)) RemoveLines(&mesh);
+  std::vector<bool> is_gone(mesh.triangles.size());
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    Corners& t = mesh.triangles[i];
+    t = {number[t[0]], number[t[1]], number[t[2]]};
+    is_gone[i] = HasTwice(t);
+  }
+  EraseMarked(is_gone, &mesh);
+  return mesh;
+}
+
+TriangleMesh Tidied(TriangleMesh mesh) {
+  const std::size_t count = mesh.triangles.size();
+  mesh = Merged(std::move(mesh), kCoincident_m);
+  const auto is_line = [&](const Corners& t) { return IsLine(mesh, t); };
+  if (mesh.triangles.size() < count ||
+      std::any_of(mesh.triangles.begin(), mesh.triangles.end(), is_line)) {
+    RemoveLines(&mesh);
+  }
   return mesh;
 }
 
@@ -209,18 +228,18 @@ Result<TriangleMesh> Rounded(const Arrangement& arrangement,
   std::vector<bool> is_rounded;
   TriangleMesh mesh = MeshOf(arrangement, pieces, &is_rounded);
   RemoveLines(&mesh);
-  for (int round = 0; HasCrossingAt(mesh, is_rounded); ++round) {
-    if (round == kMostRounds) {
-      return tl::unexpected(Error{ErrorCode::kDegenerate,
-                                  "facets so near one another that rounding makes them cross"});
-    }
+  if (!HasCrossingAt(mesh, is_rounded) && !HasNearMiss(SoupOf(mesh))) return mesh;
+  for (int round = 0; round < kMostRounds; ++round) {
+    mesh = Conformed(std::move(mesh));
+    RemoveLines(&mesh);
+    if (!HasCrossingAt(mesh, {})) return mesh;
     auto again = CutAgain(mesh);
     if (!again) return again;
     mesh = std::move(*again);
     RemoveLines(&mesh);
-    is_rounded.clear();
   }
-  return mesh;
+  return tl::unexpected(
+      Error{ErrorCode::kDegenerate, "facets so near one another that rounding makes them cross"});
 }
 
 void MeshRow::Append(const TriangleMesh& mesh) {

@@ -13,9 +13,10 @@ inline bool HasTwice(const std::array<std::uint32_t, 3>& t) {
   return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
 }
 
-// Numbers for positions; those nearer than kCoincident_m to one that is there have its number.
+// Numbers for positions; those nearer than the reach to one that is there have its number.
 class PositionIndex {
  public:
+  explicit PositionIndex(double reach_m = kCoincident_m) : reach_m_(reach_m) {}
   // The position's number in the list, where it is put if it is new.
   std::uint32_t Of(const Vec3& position, std::vector<Vec3>* list);
 
@@ -31,8 +32,12 @@ class PositionIndex {
       return h;
     }
   };
+  double reach_m_;
   std::unordered_multimap<Cell, std::uint32_t, Hash> numbers_;
 };
+
+// The same surface with corners nearer to one another than the reach merged.
+TriangleMesh Merged(TriangleMesh mesh, double reach_m);
 
 // The same surface without what is too narrow to have two sides: corners nearer to one another than
 // kCoincident_m are merged, triangles narrower than that taken out. A closed one stays closed.

@@ -69,9 +69,9 @@ double DistanceToBox(const Vec3& p, const Box& box) {
 
 }  // namespace
 
-bool IsClosed(const TriangleMesh& mesh) {
+bool IsClosed(std::span<const std::array<std::uint32_t, 3>> triangles) {
   bool is_closed = true;
-  ForEachEdge(SortedHalfEdges(mesh), [&](std::span<const HalfEdge> sides) {
+  ForEachEdge(SortedHalfEdges(triangles), [&](std::span<const HalfEdge> sides) {
     int balance = 0;
     for (const HalfEdge& side : sides) balance += side.rises ? 1 : -1;
     is_closed &= balance == 0;

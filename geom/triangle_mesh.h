@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "geom/surface.h"
@@ -21,7 +22,8 @@ struct TriangleMesh {
 
 // Every edge is run along as often in one direction as in the other: nothing is open. Edges where
 // parts of a solid touch have more than two triangles.
-bool IsClosed(const TriangleMesh&);
+bool IsClosed(std::span<const std::array<std::uint32_t, 3>> triangles);
+inline bool IsClosed(const TriangleMesh& mesh) { return IsClosed(mesh.triangles); }
 // m³, positive for a mesh whose triangles look outward.
 double Volume(const TriangleMesh&);
 double Area(const TriangleMesh&);    // m²

@@ -198,6 +198,8 @@ geom::Box BoundingBox(const Element& element);
 std::optional<double> Length(const Element& element);
 std::optional<double> Area(const Element& element);
 std::optional<double> Volume(const Element& element);
+// Where parts lie in one another that counts once; dearer, for they are united.
+std::optional<double> FilledVolume(const Element& element);
 geom::Nearest NearestPoint(const Element& element, const geom::Vec3& p);
 
 // Calls f(leaf, world_from_leaf, resolved attributes) for every part that is no group or instance.

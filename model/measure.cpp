@@ -209,6 +209,21 @@ std::optional<double> Volume(const Element& element) {
   return sum;
 }
 
+std::optional<double> FilledVolume(const Element& element) {
+  std::vector<geom::Solid> solids;
+  bool has_other = false;
+  ForEachShape(element,
+               [&]<class Shape>(const Shape& shape, const geom::Affine& world, const Element&) {
+                 if constexpr (std::is_same_v<Shape, geom::Solid>)
+                   solids.push_back(shape.Transformed(world));
+                 if constexpr (std::is_same_v<Shape, geom::Surface>)
+                   has_other |= geom::IsClosed(shape);
+               });
+  if (solids.size() < 2 || has_other) return Volume(element);
+  const geom::Result<double> volume_m3 = geom::FilledVolume(solids);
+  return volume_m3 ? std::optional(*volume_m3) : Volume(element);
+}
+
 geom::Nearest NearestPoint(const Element& element, const geom::Vec3& p) {
   geom::Nearest best;
   best.distance_m = std::numeric_limits<double>::infinity();

@@ -124,6 +124,50 @@ TEST(Boolean, ATurnedSolidIsTheTurnedResult) {
 
 // Two of the box's sides meet its top in a line that runs on beyond it, so that the facets between
 // have no width.
+// Bricks that share parts of their faces, each carried to its place on its own.
+std::vector<Solid> BrickWall(const Affine& world_from_wall) {
+  std::vector<Solid> bricks;
+  for (int course = 0; course < 5; ++course) {
+    for (int i = 0; i < 6; ++i) {
+      const Vec3 corner(0.3 * i - (course % 2 ? 0.15 : 0), 0, 0.1 * course);
+      bricks.push_back(Box(corner, {0.3, 0.2, 0.1}).Transformed(world_from_wall));
+    }
+  }
+  return bricks;
+}
+
+// Turned, the faces lie in one another no better than doubles can say.
+TEST(Boolean, ABrickWallIsOneBodyWhicheverWayItIsTurned) {
+  for (int i = 0; i < 12; ++i) {
+    SCOPED_TRACE(i);
+    Affine world_from_wall = Affine::Identity();
+    world_from_wall.translate(Vec3(0.1 * i, -0.7, 0.3))
+        .rotate(Eigen::AngleAxisd(0.31 * i, Vec3(0.1 * (i % 7), 0.2, 1).normalized()));
+    const std::vector<Solid> bricks = BrickWall(world_from_wall);
+    const TriangleMesh wall = FacetsOf(Solid::Union(bricks));
+    ExpectSound(wall);
+    EXPECT_NEAR(Volume(wall), 0.18, 1e-9);
+    EXPECT_EQ(ShellCount(wall), 1);
+    EXPECT_EQ(Genus(wall), 0);
+    // What goes along joints, too.
+    const Solid hole = Box({0.3, 0, 0.1}, {0.6, 0.2, 0.2}).Transformed(world_from_wall);
+    const TriangleMesh frame = FacetsOf(Solid::Difference(Solid::Union(bricks), {hole}));
+    ExpectSound(frame);
+    EXPECT_NEAR(Volume(frame), 0.18 - 0.6 * 0.2 * 0.2, 1e-9);
+    EXPECT_EQ(Genus(frame), 1);
+  }
+}
+
+TEST(Boolean, AGapOfARoundingErrorIsNone) {
+  const double height = 0.27 - 0.5e-16;
+  const Solid base = Box({0, 0, 0}, {0.8, 0.8, height});
+  const Solid shaft = Box({0.1, 0.1, std::nextafter(height, 1)}, {0.6, 0.6, 3});
+  const TriangleMesh pillar = FacetsOf(Solid::Union({base, shaft}));
+  ExpectSound(pillar);
+  EXPECT_EQ(ShellCount(pillar), 1);
+  EXPECT_NEAR(Volume(pillar), 0.8 * 0.8 * 0.27 + 0.6 * 0.6 * 3, 1e-9);
+}
+
 TEST(Boolean, FacetsWithoutWidthDoNoHarm) {
   TriangleMesh box = FacetsOf(Unit(0, 0, 0));
   const std::array<std::uint32_t, 3> first = box.triangles[0];
