@@ -53,7 +53,7 @@ class LotEvaluation {
     }
   }
 
-  // Not closed where the leaves, as merged and carried to doubles, cross themselves.
+  // Not closed where the leaves cross themselves as merged with one another.
   Result<std::vector<SurfacePiece>> Pieces() {
     const std::vector<std::uint32_t> patches = PatchesOf(arrangement_);
     std::vector<Side> sides(patches.size());
@@ -227,10 +227,25 @@ bool AreClosed(const std::vector<SurfacePiece>& pieces) {
   return IsClosed(triangles);
 }
 
+// Leaves that cross themselves are made ones that do not.
+Result<std::vector<Leaf>> UncrossedLeaves(const std::vector<Leaf>& leaves,
+                                          const std::vector<std::uint32_t>& lot) {
+  std::vector<Leaf> uncrossed = leaves;
+  for (const std::uint32_t leaf : lot) {
+    if (!HasSelfIntersection(*leaves[leaf])) continue;
+    auto mesh = Uncrossed(*leaves[leaf]);
+    if (!mesh) return tl::unexpected(mesh.error());
+    uncrossed[leaf] = std::make_shared<const TriangleMesh>(std::move(*mesh));
+  }
+  return uncrossed;
+}
+
 Result<TriangleMesh> SurfaceOf(const std::vector<Leaf>& leaves,
                                const std::vector<std::uint32_t>& lot, SolidExpression* expression) {
+  const auto uncrossed = UncrossedLeaves(leaves, lot);
+  if (!uncrossed) return tl::unexpected(uncrossed.error());
   for (const bool conforms : {false, true}) {
-    LotEvaluation evaluation(leaves, lot, expression, conforms);
+    LotEvaluation evaluation(*uncrossed, lot, expression, conforms);
     auto pieces = evaluation.Pieces();
     if (!pieces) return tl::unexpected(pieces.error());
     if (AreClosed(*pieces)) return evaluation.Surface(std::move(*pieces));

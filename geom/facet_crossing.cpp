@@ -114,6 +114,53 @@ bool MissesNarrowly(const Vec3& p, const Triangle& t) {
   return SideOf(t.a, t.b, t.c, p) != 0;
 }
 
+// Whether p, which lies in the triangle's plane, lies in the triangle.
+bool IsIn(const Triangle& t, const Vec3& p) {
+  const Projection projection = ProjectionOf(t);
+  const int turn = projection.Turn(t.a, t.b, t.c);
+  for (int i = 0; i < 3; ++i) {
+    if (turn * projection.Turn(t[i], t[(i + 1) % 3], p) < 0) return false;
+  }
+  return true;
+}
+// Whether the segment, whose ends lie on different sides of the triangle's plane, goes through it.
+bool Pierces(const Vec3& from, const Vec3& to, const Triangle& t) {
+  const std::array<int, 3> turns = {SideOf(from, to, t.a, t.b), SideOf(from, to, t.b, t.c),
+                                    SideOf(from, to, t.c, t.a)};
+  const auto [least, most] = std::minmax_element(turns.begin(), turns.end());
+  return *least >= 0 || *most <= 0;
+}
+// Whether an edge or a corner of the one lies in or goes through the other; not a common corner. Of
+// triangles in two planes one of them does so to the other, if they meet at all.
+bool EdgesMeet(const Sided& of, const Sided& other) {
+  for (int i = 0; i < 3; ++i) {
+    const int j = (i + 1) % 3;
+    if (of.sides[i] * of.sides[j] < 0) {
+      if (Pierces(of.triangle[i], of.triangle[j], other.triangle)) return true;
+    } else if (of.sides[i] == 0) {
+      const bool is_common =
+          std::find(other.ids.begin(), other.ids.end(), of.ids[i]) != other.ids.end();
+      if (!is_common && IsIn(other.triangle, of.triangle[i])) return true;
+    }
+  }
+  return false;
+}
+
+// Whether the facets, of one mesh, meet other than in common corners and edges.
+bool Meet(const Soup& soup, std::uint32_t s, std::uint32_t t) {
+  const Corners &sc = soup.facets[s].corners, &tc = soup.facets[t].corners;
+  const Triangle st = TriangleOf(soup, s), tt = TriangleOf(soup, t);
+  const std::array<int, 3> s_sides = Sides(sc, st, tc, tt);
+  if (AreApart(s_sides)) return false;
+  if (s_sides == std::array{0, 0, 0}) return MeetInPlane(st, tt, true);
+  const std::array<int, 3> t_sides = Sides(tc, tt, sc, st);
+  if (AreApart(t_sides)) return false;
+  const int shared = SharedCorners(sc, tc);
+  const Sided sided_s{st, sc, s_sides}, sided_t{tt, tc, t_sides};
+  if (shared >= 2 || AreSurelyApart(sided_s, sided_t, shared)) return false;
+  return EdgesMeet(sided_s, sided_t) || EdgesMeet(sided_t, sided_s);
+}
+
 CGAL::Comparison_result CompareAlong(const Point& p, const Point& q, int axis) {
   if (axis == 0) return CGAL::compare_x(p, q);
   return axis == 1 ? CGAL::compare_y(p, q) : CGAL::compare_z(p, q);
@@ -198,16 +245,11 @@ bool HasCrossing(const Soup& soup, const std::vector<bool>& is_suspect) {
     return false;
   const std::vector<Box> boxes = BoxesOf(soup);
   const BoxTree tree(boxes);
-  CornerTable corners(soup.positions);
-  const UnionFind planes(soup.facets.size());
-  CrossingFinder finder(soup, planes, &corners);
   bool found = false;
   for (std::uint32_t s = 0; s < boxes.size() && !found; ++s) {
     if (!suspect(s)) continue;
     tree.ForEachMeeting(boxes[s], [&](std::uint32_t t) {
-      if (found || t == s || (t < s && suspect(t))) return;
-      std::uint32_t from = kNoCorner, to = kNoCorner;
-      found = finder.Meet(s, t, &from, &to) != CrossingFinder::Meeting::kApart;
+      if (!found && t != s && (t > s || !suspect(t))) found = Meet(soup, s, t);
     });
   }
   return found;

@@ -30,6 +30,8 @@ class Solid {
   // The facets of its surface, evaluated at the first call and kept; no triangles for an empty
   // solid. kTooLarge above ten million triangles.
   Result<std::shared_ptr<const TriangleMesh>> Facets() const;
+  // m³; what it encloses twice, crossing itself, counts once. Kept, too.
+  Result<double> FilledVolume() const;
   // Around everything it could fill, without evaluating it.
   Box Bounds() const;
 
@@ -43,9 +45,13 @@ class Solid {
   std::shared_ptr<const Node> node_;
 };
 
-// m³ that the solids fill together: what lies in several counts once. Those whose boxes only touch
-// are not looked at further.
-Result<double> FilledVolume(const std::vector<Solid>& solids);
+struct PlacedSolid {
+  Solid solid;
+  Affine world_from_solid;
+};
+// m³ that solids fill together: what lies in several counts once. Those whose boxes only touch are
+// not looked at further.
+Result<double> FilledVolume(const std::vector<PlacedSolid>& solids);
 
 struct Solid::Node {
   Kind kind;
@@ -58,7 +64,8 @@ struct Solid::Node {
   mutable std::array<std::uint64_t, 2> content_hash = {};
   // Once evaluated. Solids share their parts, and several threads may ask for the same one's.
   mutable std::atomic<std::shared_ptr<const TriangleMesh>> facets = nullptr;
-  ~Node();  // takes deep trees apart without recursion
+  mutable std::atomic<double> filled_m3 = -1;  // below zero until it is known
+  ~Node();                                     // takes deep trees apart without recursion
 };
 
 }  // namespace tranos::geom

@@ -27,12 +27,7 @@ std::shared_ptr<const TriangleMesh> Carried(const Solid::Node& node, const Affin
     // The node outlives the expression: the solid that is evaluated holds it.
     return {std::shared_ptr<void>(), &node.mesh};
   }
-  auto mesh = std::make_shared<TriangleMesh>(node.mesh);
-  for (Vec3& p : mesh->positions) p = *into_solid * p;
-  if (into_solid->linear().determinant() < 0) {
-    for (auto& t : mesh->triangles) std::swap(t[1], t[2]);
-  }
-  return mesh;
+  return std::make_shared<const TriangleMesh>(Transformed(node.mesh, *into_solid));
 }
 
 }  // namespace

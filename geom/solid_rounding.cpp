@@ -146,7 +146,14 @@ TriangleMesh MeshOf(const Arrangement& arrangement, const std::vector<SurfacePie
   return mesh;
 }
 
-Result<TriangleMesh> CutAgain(const TriangleMesh& mesh) {
+// What counts as enclosed: rounding turns slivers inside out, which enclose nothing; a twisted loft
+// is meant to be solid on both sides of the twist.
+enum class Enclosed : std::uint8_t { kOutward, kEitherWay };
+
+Result<TriangleMesh> CutAgain(const TriangleMesh& mesh, Enclosed enclosed) {
+  const auto is_inside = [&](int winding) {
+    return enclosed == Enclosed::kOutward ? winding > 0 : winding != 0;
+  };
   const Arrangement arrangement(SoupOf(mesh), true);
   const std::vector<std::uint32_t> patches = PatchesOf(arrangement);
   std::vector<int> side(patches.size());  // 1: the inside is behind; −1: in front
@@ -159,7 +166,7 @@ Result<TriangleMesh> CutAgain(const TriangleMesh& mesh) {
       if (!front) return tl::unexpected(front.error());
       int behind = *front;
       for (const PieceLabel& label : labels) behind += label.opposite ? -1 : 1;
-      side[i] = int{behind > 0} - int{*front > 0};
+      side[i] = int{is_inside(behind)} - int{is_inside(*front)};
     }
     if (side[patches[i]] == 0) continue;
     SurfacePiece surface{piece.corners, labels[0].facet, mesh.surfaces[labels[0].facet],
@@ -169,6 +176,22 @@ Result<TriangleMesh> CutAgain(const TriangleMesh& mesh) {
   }
   std::vector<bool> is_rounded;
   return MeshOf(arrangement, kept, &is_rounded);
+}
+
+// The mesh without crossings: what all but lies in something else is put there, and what crosses
+// still is cut.
+Result<TriangleMesh> Settled(TriangleMesh mesh) {
+  for (int round = 0; round < kMostRounds; ++round) {
+    mesh = Conformed(std::move(mesh));
+    RemoveLines(&mesh);
+    if (!HasCrossingAt(mesh, {})) return mesh;
+    auto again = CutAgain(mesh, Enclosed::kOutward);
+    if (!again) return again;
+    mesh = std::move(*again);
+    RemoveLines(&mesh);
+  }
+  return tl::unexpected(
+      Error{ErrorCode::kDegenerate, "facets so near one another that rounding makes them cross"});
 }
 
 }  // namespace
@@ -229,17 +252,14 @@ Result<TriangleMesh> Rounded(const Arrangement& arrangement,
   TriangleMesh mesh = MeshOf(arrangement, pieces, &is_rounded);
   RemoveLines(&mesh);
   if (!HasCrossingAt(mesh, is_rounded) && !HasNearMiss(SoupOf(mesh))) return mesh;
-  for (int round = 0; round < kMostRounds; ++round) {
-    mesh = Conformed(std::move(mesh));
-    RemoveLines(&mesh);
-    if (!HasCrossingAt(mesh, {})) return mesh;
-    auto again = CutAgain(mesh);
-    if (!again) return again;
-    mesh = std::move(*again);
-    RemoveLines(&mesh);
-  }
-  return tl::unexpected(
-      Error{ErrorCode::kDegenerate, "facets so near one another that rounding makes them cross"});
+  return Settled(std::move(mesh));
+}
+
+Result<TriangleMesh> Uncrossed(const TriangleMesh& mesh) {
+  auto cut = CutAgain(mesh, Enclosed::kEitherWay);
+  if (!cut) return cut;
+  RemoveLines(&*cut);
+  return HasCrossingAt(*cut, {}) ? Settled(std::move(*cut)) : cut;
 }
 
 void MeshRow::Append(const TriangleMesh& mesh) {

@@ -49,6 +49,10 @@ TriangleMesh Tidied(TriangleMesh mesh);
 Result<TriangleMesh> Rounded(const Arrangement& arrangement,
                              const std::vector<SurfacePiece>& pieces);
 
+// The surface of what a mesh encloses that crosses itself: once or more often, and what it encloses
+// turned inside out, too.
+Result<TriangleMesh> Uncrossed(const TriangleMesh& mesh);
+
 // Meshes put side by side; the surfaces of each are others than those of the ones before.
 class MeshRow {
  public:

@@ -79,6 +79,14 @@ bool IsClosed(std::span<const std::array<std::uint32_t, 3>> triangles) {
   return is_closed;
 }
 
+TriangleMesh Transformed(TriangleMesh mesh, const Affine& target_from_source) {
+  for (Vec3& p : mesh.positions) p = target_from_source * p;
+  if (target_from_source.linear().determinant() < 0) {
+    for (auto& t : mesh.triangles) std::swap(t[1], t[2]);
+  }
+  return mesh;
+}
+
 double Volume(const TriangleMesh& mesh) { return MomentsOf(mesh).sixfold_volume / 6; }
 
 double Area(const TriangleMesh& mesh) {

@@ -38,6 +38,9 @@ int ShellCount(const TriangleMesh&);
 bool HasSelfIntersection(const TriangleMesh&);
 Nearest NearestPoint(const TriangleMesh&, const Vec3& p);
 
+// A reflection turns the triangles round, so that they look outward still.
+TriangleMesh Transformed(TriangleMesh mesh, const Affine& target_from_source);
+
 // Positions with normals for output: doubled along edges between surfaces, and within a surface
 // where facets meet at more than a crease's angle.
 Mesh FacetsOf(const TriangleMesh&);

@@ -99,9 +99,7 @@ std::optional<double> AreaInWorld(const geom::Solid& solid, const geom::Affine& 
   if (const std::optional<double> scale = ScaleOf(world_from_solid)) {
     return *scale * *scale * geom::Area(**facets);
   }
-  geom::TriangleMesh mesh = **facets;
-  for (geom::Vec3& p : mesh.positions) p = world_from_solid * p;
-  return geom::Area(mesh);
+  return geom::Area(geom::Transformed(**facets, world_from_solid));
 }
 
 geom::Nearest NearestTo(const geom::Solid& solid, const geom::Vec3& p) {
@@ -210,16 +208,17 @@ std::optional<double> Volume(const Element& element) {
 }
 
 std::optional<double> FilledVolume(const Element& element) {
-  std::vector<geom::Solid> solids;
+  std::vector<geom::PlacedSolid> solids;
   bool has_other = false;
   ForEachShape(element,
                [&]<class Shape>(const Shape& shape, const geom::Affine& world, const Element&) {
-                 if constexpr (std::is_same_v<Shape, geom::Solid>)
-                   solids.push_back(shape.Transformed(world));
+                 if constexpr (std::is_same_v<Shape, geom::Solid>) {
+                   if (shape.Facets()) solids.push_back({shape, world});
+                 }
                  if constexpr (std::is_same_v<Shape, geom::Surface>)
                    has_other |= geom::IsClosed(shape);
                });
-  if (solids.size() < 2 || has_other) return Volume(element);
+  if (solids.empty() || has_other) return Volume(element);
   const geom::Result<double> volume_m3 = geom::FilledVolume(solids);
   return volume_m3 ? std::optional(*volume_m3) : Volume(element);
 }
