@@ -301,10 +301,15 @@ void Binder::BindPoint(NodeId id, const PointKeyRow& row, const std::vector<Node
   const Span span = SpanOf(id);
   const auto kind = static_cast<std::uint8_t>(row.kind);
   const auto packed = static_cast<std::uint8_t>(kind | kPackedPoint);
+  if (row.kind == PointKey::kOn) {
+    const Operand interface = single(values[0], Type::kAny);
+    const Operand own =
+        count == 1 ? AddText("") : Typed({values[1]}, Type::kName, false, {}, row.key, values[1]);
+    Emit({Op::kPoint, packed, 0, own, interface, 1}, span);
+    return;
+  }
   if (count == 1 && row.kind != PointKey::kDl && row.kind != PointKey::kDx) {
-    const Type whole = row.kind == PointKey::kOn    ? Type::kAny
-                       : row.kind == PointKey::kDot ? Type::kDot
-                                                    : Type::kPoint;
+    const Type whole = row.kind == PointKey::kDot ? Type::kDot : Type::kPoint;
     Emit({Op::kPoint, packed, 0, 0, single(values[0], whole), 1}, span);
     return;
   }

@@ -68,11 +68,17 @@ double AreaOf(const model::Element& element) {
 }
 
 double VolumeOf(const model::Element& element) {
-  const std::optional<double> volume_m3 = model::FilledVolume(element);
-  if (volume_m3) return Finite(*volume_m3);
+  if (const std::optional<double> volume_m3 = model::Volume(element)) return Finite(*volume_m3);
   throw OpFailure{Code::kNotClosed,
                   WithArticle(model::TypeOf(element)) + " that is open has no volume", "",
                   "volume_under(s, z) is the volume between a surface and a height"};
+}
+
+double FilledVolumeOf(const model::Element& element) {
+  const std::optional<double> volume_m3 = model::FilledVolume(element);
+  if (volume_m3) return Finite(*volume_m3);
+  throw OpFailure{Code::kWrongElement, WithArticle(model::TypeOf(element)) + " has no solids", "",
+                  "`volume` is that of closed surfaces, too"};
 }
 
 double VolumeUnder(const model::Element& element, double z_m) {

@@ -361,7 +361,8 @@ void Machine::PointEffect(const Instruction& i, const CodeUnit& unit, const Valu
     if (kind != PointKey::kOn) return stage->Point(kind, value, span);
     const model::Interface interface = InterfaceOf(value);
     const Value* host = value.record().Find("of");
-    return stage->On(interface, host ? host->element()->id : model::kNoElement, span);
+    return stage->On(interface, Get(i.a, r, unit.constants.data()).string(),
+                     host ? host->element()->id : model::kNoElement, span);
   }
   const Unit& measure = program_.measures[i.n];
   if (i.c == 1) {

@@ -56,6 +56,8 @@ constexpr Row kMeasures[] = {
     {"length", [](const Element& e) { return Length(LengthOf(e)); }},
     {"area", [](const Element& e) { return Value::Number(AreaOf(e), model::kArea); }, true},
     {"volume", [](const Element& e) { return Value::Number(VolumeOf(e), model::kVolume); }, true},
+    {"filled_volume",
+     [](const Element& e) { return Value::Number(FilledVolumeOf(e), model::kVolume); }, true},
     {"bbox", BoxValue, true},
     {"name", [](const Element& e) { return Value::String(std::string(e.name_or_empty())); }},
     {"type", [](const Element& e) { return Value::String(model::TypeOf(e)); }},

@@ -78,6 +78,23 @@ void AddMembers(model::Hasher& hasher, const Value& value) {
   for (const Value& item : value.list()) AddMembers(hasher, item);
 }
 
+// What puts the element's own interface where its origin would be: the axes against one another, as
+// the foot of what stands on something looks into it, and the directions alike.
+geom::Affine OriginFromInterface(const model::Prototype& prototype, const Placement& placement) {
+  std::string names;
+  for (const model::Interface& interface : prototype.interfaces) {
+    if (interface.name == placement.own) {
+      geom::Affine turned = geom::Affine::Identity();
+      turned.linear().diagonal() = geom::Vec3(1, -1, -1);
+      return turned * interface.frame.WorldFromFrame().inverse();
+    }
+    names += (names.empty() ? "" : ", ") + interface.name;
+  }
+  Fail(Code::kUnknownMember, placement.at,
+       "`" + Printable(prototype.words) + "` has no interface `" + Printable(placement.own) + "`",
+       "", names.empty() ? "leave it out: its origin is put there" : "it has " + names);
+}
+
 }  // namespace
 
 // Arguments and everything else that the body can depend on.
@@ -154,6 +171,10 @@ model::ElementPtr Machine::Place(const Placement& placement, const model::State&
     throw;
   }
   instance->world_from_prototype = placement.world_from_element;
+  if (!placement.own.empty()) {
+    instance->world_from_prototype =
+        placement.world_from_element * OriginFromInterface(*instance->prototype, placement);
+  }
   return NewElement(state, model::InstancePtr(std::move(instance)));
 }
 

@@ -40,7 +40,9 @@ constexpr PointKeyRow kPointKeys[] = {
     {"di", PointKey::kDi, 2, 2, "di=length,angle: from the last data point, in the active plane"},
     {"dx", PointKey::kDx, 1, 3, "dx=dx,dy,dz: from the last data point, along the view's axes"},
     {"dot", PointKey::kDot, 1, 2, "dot=u,v, or a list of both: of the active photograph"},
-    {"on", PointKey::kOn, 1, 1, "on=INTERFACE: the place of another element's interface"},
+    {"on", PointKey::kOn, 1, 2,
+     "on=INTERFACE: the place of another element's interface; on=INTERFACE,NAME: one of its own "
+     "interfaces is put there"},
 };
 
 }  // namespace

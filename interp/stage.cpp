@@ -317,7 +317,8 @@ void Stage::WarnOfDeviation(const Value& dot, Span span) const {
                            "`noise=` says how uncertain dots are; `.value` is a number without"});
 }
 
-void Stage::On(const model::Interface& interface, ElementId host, Span span) {
+void Stage::On(const model::Interface& interface, const std::string& own, ElementId host,
+               Span span) {
   if (!active_.row) Fail(Code::kNoCommand, span, "there is no active command to take this place");
   if (!active_.definition) {
     Fail(Code::kUnknownKey, span,
@@ -328,10 +329,12 @@ void Stage::On(const model::Interface& interface, ElementId host, Span span) {
   active_.has_frame = true;
   active_.host = host;
   active_.measures = interface.measures;
-  if (links_.options) key_in_ = "on=" + interface.name;
+  active_.own = own;
+  if (links_.options) key_in_ = "on=" + interface.name + (own.empty() ? "" : "," + own);
   TakePoint({interface.frame.origin}, span);
   active_.has_frame = false;
   active_.measures.clear();
+  active_.own.clear();
 }
 
 void Stage::TakePoint(const PlacedPoint& placed, Span span, bool is_dot) {

@@ -46,7 +46,9 @@ struct Placement {
   std::vector<Span> argument_spans;
   geom::Affine world_from_element;
   Span span;                                                   // of the command
+  Span at;                                                     // of the point or of `on=`
   std::vector<std::pair<std::string, model::Value>> measures;  // of the interface it is placed on
+  std::string own;  // that of its interfaces which is put there; "" for its origin
 };
 
 // What was decided on the way to `calibrate`: the element that a pick took, the way a condition
@@ -100,7 +102,8 @@ class Stage {
   // length.
   void Point(PointKey kind, const model::Value& values, Span span);
   // `host` is the element whose interface it is, or kNoElement.
-  void On(const model::Interface& interface, model::ElementId host, Span span);
+  void On(const model::Interface& interface, const std::string& own, model::ElementId host,
+          Span span);
   void Set(const SettingRow& row, const model::Value& value, Span span);
   void Reset(Span span);
   void EndStatement(Span span);
@@ -156,6 +159,7 @@ class Stage {
     int firings = 0;
     bool selected = false;  // a firing has left something chosen: the next works on that
     std::vector<std::pair<std::string, model::Value>> measures = {};  // of `on=`
+    std::string own = {};                                             // likewise
     bool has_frame = false;
     model::ElementId host = model::kNoElement;  // whose interface `on=` names
     geom::Frame frame;                          // of `on=`
@@ -206,6 +210,7 @@ class Stage {
   void FireHistory(Span span);
   Fired Execute(const Command& row, const Answers& answers, Span span) const;
   void AskAgain();
+  bool IsMeasured(std::string_view name) const;
   void CheckRequired(Span span) const;
   void CheckUnused() const;
   Answers MakeAnswers(Span span) const;

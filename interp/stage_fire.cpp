@@ -137,14 +137,17 @@ Answers Stage::MakeAnswers(Span span) const {
   return answers;
 }
 
+// Whether the interface that the element is placed on has a measure of this name.
+bool Stage::IsMeasured(std::string_view name) const {
+  return std::any_of(active_.measures.begin(), active_.measures.end(),
+                     [&](const auto& measure) { return measure.first == name; });
+}
+
 void Stage::CheckRequired(Span span) const {
   for (std::size_t i = 0; i < active_.keys.size(); ++i) {
     const Key& key = active_.row->keys[i];
     if (!key.required || active_.keys[i].given) continue;
-    const bool measured =
-        std::any_of(active_.measures.begin(), active_.measures.end(),
-                    [&](const auto& measure) { return measure.first == key.name; });
-    if (measured) continue;
+    if (IsMeasured(key.name)) continue;
     Fail(Code::kMissingValue, active_.span,
          "`" + std::string(active_.row->words) + "` needs `" + std::string(key.name) + "=`",
          std::string(key.summary), "tranos help " + std::string(active_.row->words),
@@ -305,10 +308,14 @@ ElementPtr Stage::Drawn(const model::Element& placed) const {
 void Stage::FirePlacement(Span span) {
   if (const auto error = TooFar(MakeAnswers(span))) throw RunFailure{MakeDiagnostic(*error)};
   Placement placement{active_.definition,       {},           {},
-                      geom::Affine::Identity(), active_.span, active_.measures};
+                      geom::Affine::Identity(), active_.span, span,
+                      active_.measures,         active_.own};
   for (std::size_t i = 0; i < active_.keys.size(); ++i) {
     placement.arguments.push_back(active_.keys[i].value);
-    placement.argument_spans.push_back(active_.keys[i].given ? active_.keys[i].span : active_.span);
+    const bool given = active_.keys[i].given;
+    placement.argument_spans.push_back(given ? active_.keys[i].span
+                                       : IsMeasured(active_.row->keys[i].name) ? span
+                                                                               : active_.span);
   }
   const model::Settings& settings = *state_.drawing.settings;
   geom::Frame frame = active_.has_frame ? active_.frame : settings.plane;
@@ -325,7 +332,12 @@ void Stage::FirePlacement(Span span) {
   TakeIds();
   if (active_.host != model::kNoElement) {
     const auto id = static_cast<ElementId>(state_.model.entries.size());
-    wall_voids_.Place(state_.model, active_.host, id, *edit.added.back(), &edit);
+    if (!wall_voids_.Place(state_.model, active_.host, id, *edit.added.back(), &edit)) {
+      Fail(Code::kOutOfRange, span,
+           "the opening of `" + std::string(active_.definition->words) +
+               "` lies beside the wall, and cuts nothing",
+           "", "give a place within the face, as wall.face(\"south\", along, up)");
+    }
     links_.solids->Note(edit.replaced, active_.span);
   }
   history_.push_back(state_);

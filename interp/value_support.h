@@ -98,6 +98,7 @@ OpFailure FromGeomError(const geom::Error& error, std::string what);
 double LengthOf(const model::Element& element);
 double AreaOf(const model::Element& element);
 double VolumeOf(const model::Element& element);
+double FilledVolumeOf(const model::Element& element);  // what its solids share counts once
 double VolumeUnder(const model::Element& element, double z_m);
 const geom::Curve* CurveOf(const model::Element& element);      // null if it is none
 const geom::Surface* SurfaceOf(const model::Element& element);  // null if it is none

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "interp/wall_voids.h"
 
+#include <algorithm>
+
 namespace tranos::interp {
 
 using model::Edit;
@@ -56,23 +58,34 @@ ElementPtr WithSolid(const Element& wall, geom::Solid solid) {
                                                       instance.world_from_prototype}));
 }
 
+// More than a touch.
+bool Overlap(const geom::Box& a, const geom::Box& b) {
+  return (a.max.cwiseMin(b.max) - a.min.cwiseMax(b.min)).minCoeff() > geom::kCoincident_m;
+}
+
 bool StandsElsewhere(const Instance& a, const Instance& b) {
   return a.world_from_prototype.matrix() != b.world_from_prototype.matrix();
 }
 
 }  // namespace
 
-void WallVoids::Place(const Model& model, ElementId wall, ElementId guest, const Element& element,
+bool WallVoids::Place(const Model& model, ElementId wall, ElementId guest, const Element& element,
                       Edit* edit) {
   const ElementPtr host = model.InModel(wall) ? model.Current(wall) : nullptr;
   const model::SolidPtr solid = host ? SolidOfWall(*host) : nullptr;
-  if (!solid) return;
+  if (!solid) return true;
   std::vector<geom::Solid> voids;
-  AddVoids(element, geom::Affine::Identity(), &voids);
-  if (voids.empty()) return;
+  AddVoids(element, InstanceOf(*host)->world_from_prototype.inverse(), &voids);
+  if (voids.empty()) return true;
+  const geom::Box box = solid->Bounds();
+  if (std::none_of(voids.begin(), voids.end(),
+                   [&](const geom::Solid& v) { return Overlap(v.Bounds(), box); })) {
+    return false;
+  }
   Wall& entry = walls_.try_emplace(wall, Wall{solid, {}}).first->second;
   entry.guests.push_back(guest);
   Recut(model, wall, entry, {{guest, edit->added.back()}}, edit);
+  return true;
 }
 
 void WallVoids::Recut(const Model& model, ElementId id, const Wall& wall,

@@ -13,8 +13,8 @@ namespace tranos::interp {
 class WallVoids {
  public:
   // An element about to get the id `guest` stands on the wall: the edit cuts the wall by its voids,
-  // if it has any.
-  void Place(const model::Model& model, model::ElementId wall, model::ElementId guest,
+  // if it has any. False if they all lie beside the wall, where they would cut nothing.
+  bool Place(const model::Model& model, model::ElementId wall, model::ElementId guest,
              const model::Element& element, model::Edit* edit);
   // Adds what follows from an edit: elements that stand on a wall that is moved go with it, and a
   // wall is cut anew where one of them is moved or deleted by itself.

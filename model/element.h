@@ -198,7 +198,7 @@ geom::Box BoundingBox(const Element& element);
 std::optional<double> Length(const Element& element);
 std::optional<double> Area(const Element& element);
 std::optional<double> Volume(const Element& element);
-// Where parts lie in one another that counts once; dearer, for they are united.
+// That of its solids, where what they share counts once; dearer, for they are united.
 std::optional<double> FilledVolume(const Element& element);
 geom::Nearest NearestPoint(const Element& element, const geom::Vec3& p);
 

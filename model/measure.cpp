@@ -199,9 +199,8 @@ std::optional<double> Volume(const Element& element) {
       if (!mesh) return;
       AddTo(sum, std::abs(world.linear().determinant()) * EnclosedVolume(*mesh));
     } else if constexpr (std::is_same_v<Shape, geom::Solid>) {
-      const auto facets = shape.Facets();
-      if (!facets) return;
-      AddTo(sum, std::abs(world.linear().determinant()) * geom::Volume(**facets));
+      const auto volume_m3 = shape.FilledVolume();
+      if (volume_m3) AddTo(sum, std::abs(world.linear().determinant()) * *volume_m3);
     }
   });
   return sum;
@@ -209,18 +208,13 @@ std::optional<double> Volume(const Element& element) {
 
 std::optional<double> FilledVolume(const Element& element) {
   std::vector<geom::PlacedSolid> solids;
-  bool has_other = false;
   ForEachShape(element,
                [&]<class Shape>(const Shape& shape, const geom::Affine& world, const Element&) {
-                 if constexpr (std::is_same_v<Shape, geom::Solid>) {
-                   if (shape.Facets()) solids.push_back({shape, world});
-                 }
-                 if constexpr (std::is_same_v<Shape, geom::Surface>)
-                   has_other |= geom::IsClosed(shape);
+                 if constexpr (std::is_same_v<Shape, geom::Solid>) solids.push_back({shape, world});
                });
-  if (solids.empty() || has_other) return Volume(element);
+  if (solids.empty()) return std::nullopt;
   const geom::Result<double> volume_m3 = geom::FilledVolume(solids);
-  return volume_m3 ? std::optional(*volume_m3) : Volume(element);
+  return volume_m3 ? std::optional(*volume_m3) : std::nullopt;
 }
 
 geom::Nearest NearestPoint(const Element& element, const geom::Vec3& p) {

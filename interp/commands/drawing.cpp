@@ -10,6 +10,7 @@
 #include <map>
 
 #include "camera/homography.h"
+#include "camera/statistics.h"
 #include "interp/commands/firing.h"
 #include "interp/commands/photographs.h"
 
@@ -113,6 +114,15 @@ tl::expected<ElementPtr, CommandError> CameraMeant(const State& state, const Ans
   if (!photograph) return photograph;
   if (!model::HasCamera(PhotographOf(**photograph))) return Fail(NoCameraYet(**photograph));
   return photograph;
+}
+
+std::optional<CommandError> Misfit(double chi2, double dof, std::string_view what) {
+  constexpr double kImprobable = 1e-3;
+  if (!(dof > 0) || !(camera::ChiSquaredTail(chi2, dof) < kImprobable)) return std::nullopt;
+  return CommandError{.code = Code::kDotsMisfit,
+                      .message = fmt::format("{}: {:.2g} times as far off as their noise says",
+                                             what, std::sqrt(chi2 / dof)),
+                      .help = "look at its dots again, or give a larger `noise=`"};
 }
 
 double NoiseOf(const State& state, model::ElementId photograph) {

@@ -52,6 +52,8 @@ CommandError BadDot(const geom::Error& error, const model::Facade& facade,
 // The deviation of each coordinate of a dot of the photograph: the stated one, or as estimated from
 // the residuals.
 double NoiseOf(const model::State& state, model::ElementId photograph);
+// W0013 where the sum of squared residuals, each by its deviation, is improbably large.
+std::optional<CommandError> Misfit(double chi2, double dof, std::string_view what);
 
 // The point of the active facade that a dot of the active photograph is of. E0901, E0902 and E0908
 // where one of them is missing, E0909 where the dot is outside the photograph, of no point of the

@@ -2,6 +2,7 @@
 // Facades: set, constructed from points, recovered through the photograph.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "interp/commands/drawing.h"
@@ -242,15 +243,19 @@ CommandResult Across(const State& state, const Answers& answers, const std::stri
   return Make(state, FacadeGeometry(name, *frame));
 }
 
+struct Depth {
+  double m;
+  double chi2_px2;  // Σ (how far it misses the edge's end, px)², edges − 1 degrees
+};
 // The depth at which the edges across a facade end, each from a dot on it to one at its other end:
 // a known direction gives the depth (Debevec). Edges count by their images' squared length for each
 // metre.
-tl::expected<double, CommandError> DepthOfReveals(const Answers& answers,
-                                                  const model::Facade& reference,
-                                                  const model::Photograph& photograph) {
+tl::expected<Depth, CommandError> DepthOfReveals(const Answers& answers,
+                                                 const model::Facade& reference,
+                                                 const model::Photograph& photograph) {
   const auto begins = DotsOn(photograph, reference, answers);
   if (!begins) return Fail(begins.error());
-  double sum = 0, weights = 0;
+  double sum = 0, squares = 0, weights = 0;
   for (std::size_t i = 0; i + 1 < answers.points.size(); i += 2) {
     const Vec2 from_px = answers.points[i].head<2>(), to_px = answers.points[i + 1].head<2>();
     const auto depth_m = camera::LengthAlong(photograph.estimate->camera, photograph.frame,
@@ -262,9 +267,11 @@ tl::expected<double, CommandError> DepthOfReveals(const Answers& answers,
     }
     const double weight = (to_px - from_px).squaredNorm() / (*depth_m * *depth_m);
     sum += weight * *depth_m;
+    squares += weight * *depth_m * *depth_m;
     weights += weight;
   }
-  return sum / weights;
+  const double mean_m = sum / weights;
+  return Depth{mean_m, std::max(0.0, squares - sum * mean_m)};
 }
 
 CommandResult RecoverFacade(const State& state, const Answers& answers) {
@@ -295,10 +302,17 @@ CommandResult RecoverFacade(const State& state, const Answers& answers) {
     return Across(state, answers, *name, frame, FacadeOf(*reference), photograph);
   }
   if (*way == Way::kReveals) {
-    const auto depth_m = DepthOfReveals(answers, FacadeOf(*reference), photograph);
-    if (!depth_m) return Fail(depth_m.error());
-    frame.origin -= *depth_m * frame.z();
-    return Make(state, FacadeGeometry(*name, frame));
+    const auto depth = DepthOfReveals(answers, FacadeOf(*reference), photograph);
+    if (!depth) return Fail(depth.error());
+    frame.origin -= depth->m * frame.z();
+    CommandResult made = Make(state, FacadeGeometry(*name, frame));
+    const double noise_px = NoiseOf(state, (*meant)->id);
+    // Both ends of an edge were drawn.
+    const auto misfit =
+        Misfit(depth->chi2_px2 / (2 * noise_px * noise_px),
+               static_cast<double>(answers.points.size()) / 2 - 1, "the edges end at no one depth");
+    if (made && misfit) made->warnings.push_back(*misfit);
+    return made;
   }
   const auto across = FacadeNamed(state, answers.Text("through"), AtKey("through"));
   if (!across) return Fail(across.error());

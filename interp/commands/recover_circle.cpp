@@ -54,12 +54,21 @@ tl::expected<Seen, CommandError> FitTo(const State& state, const Answers& answer
                .help = "more dots, over a longer part of the arch"});
 }
 
+CommandResult Made(const State& state, const Answers& answers, const Seen& seen,
+                   geom::Curve curve) {
+  CommandResult made = Make(state, CurveGeometry(std::move(curve)));
+  const double dof = static_cast<double>(answers.points.size()) - 3;
+  const auto misfit = Misfit(seen.circle.chi2, dof, "the dots lie on no circle");
+  if (made && misfit) made->warnings.push_back(*misfit);
+  return made;
+}
+
 }  // namespace
 
 CommandResult RecoverCircle(const State& state, const Answers& answers) {
   const auto seen = FitTo(state, answers);
   if (!seen) return Fail(seen.error());
-  return Make(state, CurveGeometry(geom::Circle{seen->plane, seen->circle.radius_m}));
+  return Made(state, answers, *seen, geom::Circle{seen->plane, seen->circle.radius_m});
 }
 
 CommandResult RecoverArc(const State& state, const Answers& answers) {
@@ -82,7 +91,7 @@ CommandResult RecoverArc(const State& state, const Answers& answers) {
   frame.x = std::cos(angles_rad[0]) * plane.x + std::sin(angles_rad[0]) * plane.y;
   frame.y = std::cos(angles_rad[0]) * plane.y - std::sin(angles_rad[0]) * plane.x;
   if (sweep_rad < 0) frame.y = -frame.y;
-  return Make(state, CurveGeometry(geom::Arc{frame, seen->circle.radius_m, std::abs(sweep_rad)}));
+  return Made(state, answers, *seen, geom::Arc{frame, seen->circle.radius_m, std::abs(sweep_rad)});
 }
 
 }  // namespace tranos::interp
