@@ -117,7 +117,8 @@ void AddScriptVerbs(CLI::App* app, Choices* choices, int* status) {
   verb = app->add_subcommand("trace", "Writes a script with the edges found on a photograph.");
   verb->add_option("photo", trace.photo, "the photograph")->required()->type_name("PHOTO");
   verb->add_option("-o,--output", trace.output,
-                   "the script, beside the photograph; named after it, if not given")
+                   "the script, in the photograph's folder or one above it; beside it and named "
+                   "after it, if not given")
       ->type_name("SCRIPT");
   verb->callback([&trace, status] { *status = TraceVerb(trace); });
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/outputs.h"
 
-#include <algorithm>
+#include <filesystem>
 #include <map>
 #include <new>
 
@@ -30,13 +30,11 @@ struct Request {
   std::string label = {};
 };
 
-// The model first, then what the script asked for in its order; of two with one path the later
-// stays.
+// The model first, then what the script asked for in its order.
 std::vector<Request> RequestsOf(const interp::ScriptResult& result, const std::string& stem) {
   const interp::Outcome& outcome = result.outcome;
   std::vector<Request> all;
   const auto add = [&](model::OutputRequest what, std::string path, Span span) {
-    std::erase_if(all, [&](const Request& earlier) { return earlier.path == path; });
     all.push_back({std::move(what), std::move(path), span});
   };
   const std::string model_path = stem + ".glb";
@@ -137,6 +135,31 @@ tl::expected<std::vector<std::string>, Diagnostic> PathsOf(const Request& reques
                                 "export exact \"camera.json\" keeps it as it is"));
 }
 
+// "a/../x.json" and "x.json" are one file.
+std::string Plainly(const std::string& path) {
+  return std::filesystem::path(path).lexically_normal().string();
+}
+
+// Of two outputs of one name the earlier would be lost.
+Diagnostic Taken(const Request& request, const Request& earlier) {
+  Diagnostic taken{Code::kProtectedFile,
+                   request.span,
+                   "`" + request.path + "` is already the name of another output of this run",
+                   "the name is taken",
+                   "give one of the two another name",
+                   {{earlier.span, "taken by this one"}}};
+  if (!earlier.label.empty()) {
+    taken.message = "`" + request.path + "` is the name of the model, which every run writes";
+    taken.help = "give it another name";
+    taken.notes.clear();
+  } else if (earlier.span == request.span) {
+    taken.label = "the name is taken by what this statement wrote before";
+    taken.help = "in a loop the name is to change: `\"plan{i}.png\"`";
+    taken.notes.clear();
+  }
+  return taken;
+}
+
 Diagnostic FromHost(const interp::HostError& error, const std::string& path, Span span,
                     const std::string& label = {}) {
   using Kind = interp::HostError::Kind;
@@ -161,6 +184,7 @@ Written WriteOutputs(const ScriptRun& run, const RunVerbOptions& options, Progre
   auto writer = Writer::Into(options.output, run.sandbox.get());
   if (!writer) return Failed(FromHost(writer.error(), options.output, kNoPlace));
   // Refusals come before long work.
+  std::map<std::string, const Request*> names;
   for (const Request& request : requests) {
     const auto paths = PathsOf(request);
     if (!paths) return Failed(paths.error());
@@ -169,9 +193,16 @@ Written WriteOutputs(const ScriptRun& run, const RunVerbOptions& options, Progre
         return Failed(FromHost(free.error(), path, request.span, request.label));
       }
     }
+    // What stands beside the first file may be shared, as two exports of a camera share a picture.
+    const auto [taken, is_new] = names.emplace(Plainly(paths->front()), &request);
+    if (!is_new) return Failed(Taken(request, *taken->second));
   }
   Written written;
-  std::map<std::string, model::Hash128> contents;  // two cameras may share a picture
+  struct Content {
+    model::Hash128 hash;
+    const Request* request;
+  };
+  std::map<std::string, Content> contents;
   for (std::size_t i = 0; i < requests.size(); ++i) {
     const Request& request = requests[i];
     progress->Tell("writing " + interp::Printable(request.path) + ", " + std::to_string(i + 1) +
@@ -180,12 +211,15 @@ Written WriteOutputs(const ScriptRun& run, const RunVerbOptions& options, Progre
     if (!files) return Failed(files.error());
     for (const auto& [path, bytes] : *files) {
       const model::Hash128 content = model::Hasher().Text(bytes).Finish();
-      const auto [known, is_new] = contents.emplace(path, content);
-      if (!is_new && known->second == content) continue;
+      const auto [known, is_new] = contents.emplace(Plainly(path), Content{content, &request});
+      if (!is_new && known->second.hash == content) continue;
       if (!is_new) {
-        return Failed({Code::kProtectedFile, request.span,
-                       "`" + path + "` would be written twice, and differently", request.label,
-                       "give one of the exports another name"});
+        return Failed({Code::kProtectedFile,
+                       request.span,
+                       "`" + path + "` would be written twice, and differently",
+                       request.label,
+                       "give one of the two another name",
+                       {{known->second.request->span, "it is written by this one, too"}}});
       }
       if (const auto put = writer->Write(path, bytes); !put) {
         return Failed(FromHost(put.error(), path, request.span, request.label));

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <filesystem>
 
 #include "app/console.h"
 #include "app/script_run.h"
@@ -54,11 +55,31 @@ std::string TracesOf(const model::State& state) {
   return text;
 }
 
+std::string BesidePhoto(const std::string& photo) {
+  const std::string folder = FolderOf(photo);
+  return (folder == "/" ? "" : folder) + "/" + StemOf(photo) + ".trn";
+}
+
+// The photograph as the script will name it: from the script's folder, however either was named on
+// the command line, and without the links that a script may not follow. Empty where the script
+// could not read it.
+std::string NameFromScript(const TraceOptions& options) {
+  namespace fs = std::filesystem;
+  std::error_code failed;
+  const fs::path photo = fs::canonical(options.photo, failed);
+  if (failed) return "";
+  const fs::path folder = fs::canonical(FolderOf(options.output), failed);
+  if (failed) return "";
+  const fs::path name = photo.lexically_relative(folder);
+  return name.empty() || *name.begin() == ".." ? "" : name.string();
+}
+
 // Why nothing is written, where something stands in the way.
-std::string InTheWay(const TraceOptions& options) {
-  if (NameOf(options.output).empty() || FolderOf(options.output) != FolderOf(options.photo)) {
-    return "a script reads what is beside it: `" + interp::Printable(options.output) +
-           "` is to be in the photograph's folder";
+std::string InTheWay(const TraceOptions& options, const std::string& photo) {
+  if (NameOf(options.output).empty() || photo.empty()) {
+    return "a script reads what is in its folder or below: `" + interp::Printable(options.output) +
+           "` is to be in the photograph's folder or one above it, such as `-o " +
+           interp::Printable(BesidePhoto(options.photo)) + "`";
   }
   const auto there = ReadNamedFile(options.output);
   if (there || there.error().kind != HostError::kMissing)
@@ -71,7 +92,7 @@ std::string InTheWay(const TraceOptions& options) {
 int TraceVerb(const TraceOptions& given) {
   TraceOptions options = given;
   if (options.output.empty()) {
-    options.output = FolderOf(options.photo) + "/" + StemOf(options.photo) + ".trn";
+    options.output = BesidePhoto(options.photo);
   }
   const auto bytes = ReadNamedFile(options.photo);
   if (!bytes) {
@@ -79,14 +100,14 @@ int TraceVerb(const TraceOptions& given) {
                  "` cannot be read: " + bytes.error().detail);
     return kFileFailed;
   }
-  const std::string in_the_way = InTheWay(options);
+  const std::string name = NameFromScript(options);
+  const std::string in_the_way = InTheWay(options, name);
   if (!in_the_way.empty()) {
     PrintFailure(in_the_way);
     return kFileFailed;
   }
-  const std::string head =
-      fmt::format("attach photo {} as {}\nprior default\nnoise=estimated\n",
-                  interp::KeyInText(model::Value::String(NameOf(options.photo))), kName);
+  const std::string head = fmt::format("attach photo {} as {}\nprior default\nnoise=estimated\n",
+                                       interp::KeyInText(model::Value::String(name)), kName);
   interp::ScriptResult result =
       RunOn(options.photo, head + "detect edges\ndetect vanishing points\n");
   const bool directed = !result.diagnostics.has_errors();

@@ -100,52 +100,109 @@ std::string Advice(const std::vector<Quantity>& quantities) {
   return "a second independent ratio, a third dimension or a prior on the principal point";
 }
 
+// The rows of `open` of quantities that satisfy a condition.
+template <class Condition>
+Eigen::MatrixXd RowsWhere(const Eigen::MatrixXd& open, const std::vector<Quantity>& quantities,
+                          Condition holds) {
+  std::vector<Eigen::Index> rows;
+  for (Eigen::Index i = 0; i < open.rows(); ++i) {
+    if (holds(quantities[i])) rows.push_back(i);
+  }
+  return open(rows, Eigen::all);
+}
+
+constexpr double kPart = 0.02;  // in scales, from which on a quantity takes part in a direction
+
+// Whether no direction is left open once the quantities of these rows are known.
+bool Close(const Eigen::MatrixXd& rows) {
+  if (rows.rows() < rows.cols()) return false;
+  return Eigen::JacobiSVD<Eigen::MatrixXd>(rows).singularValues().tail(1)[0] > kPart;
+}
+
+bool IsUnknown(const Quantity& quantity) { return quantity.kind == Kind::kUnknown; }
+
+// What would close directions of which the camera's own parameters are a part. Where the unknowns
+// that go with them leave nothing open once they are known, that comes first; a single ratio, or
+// the two numbers of the principal point, then closes only as many directions as it has numbers.
+std::string AdviceFor(const Eigen::MatrixXd& open, const std::vector<Quantity>& quantities,
+                      const std::vector<std::string>& unknowns) {
+  if (!Close(RowsWhere(open, quantities, IsUnknown))) return Advice(quantities);
+  std::string text = "a known length, ";
+  if (open.cols() == 1) text += "a second independent ratio, ";
+  const Eigen::MatrixXd principal = RowsWhere(open, quantities, [](const Quantity& quantity) {
+    return quantity.term == kPrincipalPoint && !quantity.has_prior;
+  });
+  if (Close(principal)) text += "a prior on the principal point, ";
+  const bool is_measured = std::ranges::any_of(quantities, [&](const Quantity& quantity) {
+    return IsUnknown(quantity) && quantity.is_measured &&
+           std::ranges::find(unknowns, quantity.term) != unknowns.end();
+  });
+  return text + (is_measured ? "or a smaller deviation of " : "or a deviation of ") +
+         Listed(unknowns);
+}
+
 // What trades off in some directions (columns of `open`), and what would close them.
 std::string Sentence(const Eigen::MatrixXd& open, const std::vector<Quantity>& quantities) {
-  std::vector<std::string> terms;
-  bool has_limited = false, has_unknown = false;
+  std::vector<std::string> terms, unknowns;
+  bool has_limited = false, has_position = false;
   double largest = 0;
   for (Eigen::Index i = 0; i < open.rows(); ++i) {
     if (quantities[i].kind != Kind::kNuisance) largest = std::max(largest, open.row(i).norm());
   }
   for (Eigen::Index i = 0; i < open.rows(); ++i) {
     const Quantity& quantity = quantities[i];
-    if (quantity.kind == Kind::kNuisance || open.row(i).norm() <= 0.02 * largest) continue;
+    if (quantity.kind == Kind::kNuisance || open.row(i).norm() <= kPart * largest) continue;
     has_limited = has_limited || quantity.kind == Kind::kLimited;
-    has_unknown = has_unknown || quantity.kind == Kind::kUnknown;
-    if (std::ranges::find(terms, quantity.term) == terms.end()) terms.push_back(quantity.term);
+    has_position = has_position || quantity.kind == Kind::kPosition;
+    if (std::ranges::find(terms, quantity.term) != terms.end()) continue;
+    terms.push_back(quantity.term);
+    if (IsUnknown(quantity)) unknowns.push_back(quantity.term);
   }
   const std::string what =
       Listed(terms) + (terms.size() > 1 ? " trade off: " : " is not seen by anything traced: ");
-  if (has_limited) {
-    return what + Advice(quantities) + " closes it";
-  }
-  if (has_unknown) return what + "a known length, or a deviation of the unknown, closes it";
+  if (has_limited) return what + AdviceFor(open, quantities, unknowns) + " closes it";
+  if (unknowns.size() == 1 && !has_position)
+    return what + "a trace of what depends on it, or a deviation of the unknown, closes it";
+  if (!unknowns.empty()) return what + "a known length, or a deviation of the unknown, closes it";
   return what + "an edge or a point with a known place, or a known length, closes it";
 }
 
+// Directions that move the camera's own parameters may be told with any of the `rest` added to
+// them: what those can undo of the unknowns' part in them is no part of theirs.
+void LeaveUnknownsTo(const Eigen::MatrixXd& rest, const std::vector<Quantity>& quantities,
+                     Eigen::MatrixXd* moving) {
+  const Eigen::MatrixXd undone = RowsWhere(rest, quantities, IsUnknown);
+  if (undone.size() == 0) return;
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(undone, Eigen::ComputeThinU);
+  const Eigen::Index rank = (svd.singularValues().array() > kShare).count();
+  const Eigen::MatrixXd basis = svd.matrixU().leftCols(rank);
+  const Eigen::MatrixXd part = RowsWhere(*moving, quantities, IsUnknown);
+  const Eigen::MatrixXd left = part - basis * (basis.transpose() * part);
+  for (Eigen::Index i = 0, row = 0; i < moving->rows(); ++i) {
+    if (IsUnknown(quantities[static_cast<std::size_t>(i)])) moving->row(i) = left.row(row++);
+  }
+}
+
+// A sentence for the directions that move the camera's own parameters, one for those of the rest
+// that move unknowns, such as scale, and one for place: what closes one of them does not close
+// another.
 std::vector<std::string> SentencesOf(const Eigen::MatrixXd& open,
                                      const std::vector<Quantity>& quantities) {
-  if (open.cols() == 0) return {};  // an empty matrix has no rows to look at, either
-  // Directions that move nothing but the position are scale and place, and are told apart from
-  // those of which the camera's own parameters are a part.
-  Eigen::MatrixXd inner = open;
-  for (Eigen::Index i = 0; i < open.rows(); ++i) {
-    if (quantities[i].kind == Kind::kNuisance || quantities[i].kind == Kind::kPosition)
-      inner.row(i).setZero();
-  }
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(inner, Eigen::ComputeFullV);
-  Eigen::Index mixed = 0;
-  while (mixed < svd.singularValues().size() && svd.singularValues()[mixed] > kShare) ++mixed;
-  const Eigen::MatrixXd turned = open * svd.matrixV();
   std::vector<std::string> sentences;
-  if (mixed > 0) sentences.push_back(Sentence(turned.leftCols(mixed), quantities));
-  if (mixed == open.cols()) return sentences;
-  const Eigen::MatrixXd outer = turned.rightCols(open.cols() - mixed);
-  for (Eigen::Index i = 0; i < outer.rows(); ++i) {
-    if (quantities[i].kind != Kind::kPosition || !(outer.row(i).norm() > kShare)) continue;
-    sentences.push_back(Sentence(outer, quantities));
-    break;
+  Eigen::MatrixXd rest = open;
+  for (const Kind kind : {Kind::kLimited, Kind::kUnknown, Kind::kPosition}) {
+    if (rest.cols() == 0) break;
+    const Eigen::MatrixXd moved = RowsWhere(
+        rest, quantities, [kind](const Quantity& quantity) { return quantity.kind == kind; });
+    if (moved.rows() == 0) continue;
+    const Eigen::JacobiSVD<Eigen::MatrixXd> svd(moved, Eigen::ComputeFullV);
+    const Eigen::Index count = (svd.singularValues().array() > kShare).count();
+    if (count == 0) continue;
+    const Eigen::MatrixXd turned = rest * svd.matrixV();
+    rest = turned.rightCols(rest.cols() - count);
+    Eigen::MatrixXd moving = turned.leftCols(count);
+    if (kind == Kind::kLimited) LeaveUnknownsTo(rest, quantities, &moving);
+    sentences.push_back(Sentence(moving, quantities));
   }
   return sentences;
 }

@@ -202,6 +202,19 @@ int OrientationOfPng(Bytes file) {
   return 1;
 }
 
+// Whether the last chunk is there, so that a file that is cut off is told without decoding it.
+bool PngComesToItsEnd(Bytes file) {
+  constexpr std::size_t kSignature = 8, kHead = 8, kCrc = 4;
+  Bytes rest = file.subspan(std::min(kSignature, file.size()));
+  while (rest.size() >= kHead + kCrc) {
+    const std::size_t size = BigEndian(rest);
+    if (std::string_view(reinterpret_cast<const char*>(rest.data()) + 4, 4) == "IEND") return true;
+    if (size > rest.size() - kHead - kCrc) return false;
+    rest = rest.subspan(kHead + size + kCrc);
+  }
+  return false;
+}
+
 Result<Stored> Open(PngFile& file, Bytes bytes, std::int64_t max_pixels) {
   file.rest = bytes;
   file.png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &file, KeepMessage, NoWarning);
@@ -215,6 +228,7 @@ Result<Stored> Open(PngFile& file, Bytes bytes, std::int64_t max_pixels) {
   if (stored && row_bytes * stored->height_px / 1032 > bytes.size()) {
     return Damaged("PNG", "too short for its size");
   }
+  if (stored && !PngComesToItsEnd(bytes)) return Damaged("PNG", "its end is missing");
   return stored;
 }
 
@@ -320,12 +334,43 @@ int OrientationOf(const JpegFile& file) {
   return 1;
 }
 
+// Whether the mark of the picture's end (EOI) comes, so that a file that is cut off is told without
+// decoding it. Segments are stepped over by their lengths, for a thumbnail in one of them has an
+// end of its own; so are a scan's data by their bytes, in which only FF 00 and restarts begin with
+// FF. The library looks for markers in the same way, and what follows the end is nobody's concern.
+bool JpegComesToItsEnd(Bytes jpeg) {
+  constexpr unsigned kStuffed = 0x00, kTemporary = 0x01, kFirstRestart = 0xd0, kStart = 0xd8,
+                     kEnd = 0xd9, kFill = 0xff;
+  for (std::size_t at = 0; at + 1 < jpeg.size();) {
+    const auto marker = std::to_integer<unsigned>(jpeg[at + 1]);
+    if (jpeg[at] != std::byte{0xff}) {
+      const auto next =
+          std::find(jpeg.begin() + static_cast<std::ptrdiff_t>(at), jpeg.end(), std::byte{0xff});
+      at = static_cast<std::size_t>(next - jpeg.begin());
+    } else if (marker == kEnd) {
+      return true;
+    } else if (marker == kFill) {
+      ++at;  // it may be the first byte of the marker that follows
+    } else if (marker == kStuffed || marker == kTemporary ||
+               (marker >= kFirstRestart && marker <= kStart)) {
+      at += 2;
+    } else {
+      if (jpeg.size() - at < 4) return false;
+      at += 2 + (std::to_integer<std::size_t>(jpeg[at + 2]) << 8 |
+                 std::to_integer<std::size_t>(jpeg[at + 3]));
+    }
+  }
+  return false;
+}
+
 Result<Stored> Open(JpegFile& file, Bytes bytes, std::int64_t max_pixels) {
   if (!ReadHeader(&file, reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size())) {
     return Damaged("JPEG", file.message.data());
   }
-  return Checked(file.reader.image_width, file.reader.image_height, OrientationOf(file),
-                 max_pixels);
+  const auto stored =
+      Checked(file.reader.image_width, file.reader.image_height, OrientationOf(file), max_pixels);
+  if (stored && !JpegComesToItsEnd(bytes)) return Damaged("JPEG", "its end is missing");
+  return stored;
 }
 
 // One row of CMYK to RGB. Adobe's files hold what is left of white, others the ink.

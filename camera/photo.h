@@ -40,7 +40,8 @@ geom::Result<Photo> DecodePhoto(std::span<const std::byte> file,
                                 std::int64_t max_pixels = kMaxPhotoPixels);
 
 // Its size from the header alone, no pixel decoded; the same errors as far as the header shows
-// them.
+// them, and where the end of a PNG or JPEG is missing: a file that is cut off is told at once, and
+// not by the pictures that cannot be made of it later.
 geom::Result<PhotoSize> PhotoSizeOf(std::span<const std::byte> file,
                                     std::int64_t max_pixels = kMaxPhotoPixels);
 

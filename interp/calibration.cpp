@@ -184,6 +184,18 @@ Fired Machine::Calibrate(const Answers& answers, const model::State& state, Span
   return Calibrated({evaluation, traced, silent, solved, *std::move(found)}, state, span);
 }
 
+namespace {
+
+// What is said of the directions that an unknown is part of: others are closed by something else.
+std::string OpenWith(const camera::Estimate& estimate, const std::string& unknown) {
+  const auto said = std::ranges::find_if(estimate.undetermined, [&](const std::string& sentence) {
+    return sentence.find("`" + unknown + "`") != std::string::npos;
+  });
+  return said == estimate.undetermined.end() ? "" : *said;
+}
+
+}  // namespace
+
 // An unknown that nothing determines is an error, for elements may be built with it.
 void Machine::CheckUnknowns(const camera::Estimate& estimate) const {
   for (const camera::UnknownEstimate& unknown : estimate.unknowns) {
@@ -191,9 +203,9 @@ void Machine::CheckUnknowns(const camera::Estimate& estimate) const {
     for (const UnknownInfo& info : program_.unknowns) {
       if (info.name != unknown.name) continue;
       Fail(Code::kNotDetermined, info.span, "nothing traced determines `" + unknown.name + "`",
-           estimate.undetermined.empty() ? "" : estimate.undetermined.front(),
-           "trace what depends on it, or say what is known of it: `unknown " + unknown.name +
-               " = 4m +- 10%`");
+           OpenWith(estimate, unknown.name),
+           "say what is known of it, as by `unknown " + unknown.name +
+               " = 4m +- 10%`, or trace what tells it");
     }
   }
 }

@@ -233,6 +233,14 @@ class Exchange(harness.ProgramTest):
         self.exported(PHOTOGRAPH + 'export "a.yaml"; export "a.py"\n')
         self.assert_refused(PHOTOGRAPH + 'export "a.yaml"\n' + other + 'export "a.py" camera=other\n', "E0704")
 
+    def test_two_cameras_or_two_forms_of_one_have_two_names(self):
+        other = CAMERA.replace("as hall", "as other")
+        exact = CAMERA + 'export exact "x.json" camera=hall\n'
+        ran = self.assert_refused(exact + other + 'export exact "x.json" camera=other\n', "E0704")
+        self.assertIn("another output of this run", ran.err)
+        self.assert_refused(exact + 'export "x.json" camera=hall\n', "E0704")
+        self.assert_refused(CAMERA + 'export colmap "x" camera=hall\n' + other + 'export colmap "x" camera=other\n', "E0704")
+
     def test_an_export_is_replayed_without_the_picture(self):
         ran = self.run_script(PHOTOGRAPH + 'export "hall.yaml"\nexport "hall.fspy"\n', "--journal", "journal.jsonl")
         self.assertEqual(ran.status, 0, ran.err)

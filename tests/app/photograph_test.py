@@ -2,6 +2,7 @@
 """A photograph from text to camera: the report, the model's file, the journal, the comparison."""
 
 import json
+import pathlib
 import shutil
 import struct
 
@@ -194,6 +195,18 @@ class Photograph(harness.ProgramTest):
                               "render photo camera=paper distortion=[-0.3, -0.3] as p\n")
         self.assertEqual(ran.codes(), ["E0212"])
         self.assertIn("fold", ran.err)
+
+    def test_a_photograph_that_is_cut_off_is_refused_at_once(self):
+        photos = harness.ROOT / "tests/fuzz/photos"
+        files = [photos / "turned.jpg", photos / "progressive.jpg", GOLDENS / "house.png"]
+        for whole in map(pathlib.Path.read_bytes, files):
+            for data in (whole, whole + b"\0" * 512):
+                self.write("photo", data)
+                self.assertEqual(self.run_script('attach photo "photo" as p\n', "--no-output").status, 0)
+            for data in (whole[:len(whole) // 2], whole[:-2]):
+                self.write("photo", data)
+                ran = self.assert_refused('attach photo "photo" as p\n', "E0901", line=1)
+                self.assertIn("cut off", ran.err)
 
     def test_edges_that_were_found_replay_without_pixels(self):
         """Those of a file, of another length and noise, and those of a photograph of the model."""

@@ -213,10 +213,27 @@ class Writing(harness.ProgramTest):
         self.assertEqual(self.run_script(self.DRAWING).status, 0)
         self.assertEqual((self.folder / "out/script.glb").read_bytes()[:4], b"glTF")
 
-    def test_same_name_twice_keeps_the_later(self):
-        report = self.report_of('export "a.glb"\n' + self.DRAWING + 'export "a.glb"\n')
-        self.assertEqual([output["path"] for output in report["outputs"]], ["out/script.glb", "out/a.glb"])
-        self.assertEqual((self.folder / "out/a.glb").read_bytes(), (self.folder / "out/script.glb").read_bytes())
+    def test_a_name_that_another_output_has(self):
+        exports = self.DRAWING + 'export "a.glb"\n'
+        for again in ("a.glb", "./a.glb", "b/../a.glb"):
+            with self.subTest(again=again):
+                ran = self.assert_refused(exports + f'place line xy=5,5,0 dl=1\nexport "{again}"\n', "E0704", line=4)
+                self.assertIn("another output of this run", ran.err)
+                self.assertIn("script.trn:2:", ran.err)  # the output that has the name
+        self.assertEqual(self.run_script(exports + 'export "b/a.glb"\n').status, 0)
+
+    def test_a_picture_named_as_one_that_is_numbered(self):
+        self.assert_refused(self.DRAWING + 'render\nrender file="script-1.png"\n', "E0704", line=3)
+
+    def test_one_name_at_each_turn_of_a_loop(self):
+        loop = self.DRAWING + "for i = 1 to 2 {\n  render size=20,20 file=%s\n}\n"
+        ran = self.assert_refused(loop % '"a.png"', "E0704", line=3)
+        self.assertIn("in a loop the name is to change", ran.err)
+        self.assertEqual(self.run_script(loop % '"a{i}.png"').status, 0)
+
+    def test_the_name_of_the_model(self):
+        ran = self.assert_refused(self.DRAWING + 'export "script.glb"\n', "E0704", line=2)
+        self.assertIn("the model, which every run writes", ran.err)
 
     def test_unknown_format(self):
         ran = self.refuse_export("a.dwg", "E0705")

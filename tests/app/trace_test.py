@@ -68,12 +68,30 @@ class Trace(harness.ProgramTest):
         self.assertIn("is there already", ran.err)
         self.assertEqual((self.folder / "house.trn").read_text(), "# mine\n")
 
-    def test_writes_beside_the_photograph_alone(self):
+    def test_refuses_a_place_from_which_the_photograph_cannot_be_read(self):
         (self.folder / "other").mkdir()
         ran = self.trace("house.png", "-o", "other/traces.trn")
         self.assertEqual(ran.status, 3)
-        self.assertIn("in the photograph's folder", ran.err)
+        self.assertIn("in the photograph's folder or one above it", ran.err)
+        self.assertIn("-o ./house.trn", ran.err)
         self.assertEqual(list((self.folder / "other").iterdir()), [])
+        self.assertEqual(self.trace("house.png", "-o", "nowhere/traces.trn").status, 3)
+
+    def test_names_a_photograph_from_the_scripts_folder(self):
+        (self.folder / "sub").mkdir()
+        shutil.copy(GOLDENS / "house.png", self.folder / "sub/h.png")
+        (self.folder / "linked").symlink_to("sub")
+        for photo, output, name in [("sub/h.png", "y.trn", "sub/h.png"),
+                                    (self.folder / "house.png", "z.trn", "house.png"),
+                                    ("./house.png", self.folder / "sub/../x.trn", "house.png"),
+                                    ("linked/h.png", "l.trn", "sub/h.png"),
+                                    ("sub/h.png", "linked/h.trn", "h.png")]:
+            with self.subTest(photo=photo, output=output):
+                ran = self.trace(photo, "-o", output)
+                self.assertEqual((ran.status, ran.err), (0, ""))
+                text = (self.folder / output).read_text(encoding="utf-8")
+                self.assertIn(f'attach photo "{name}" as picture', text)
+                self.assertEqual(self.tranos("run", output, "--no-output").status, 0)
 
     def test_names_a_photograph_as_it_is_called(self):
         shutil.copy(GOLDENS / "house.png", self.folder / 'a "{b}".png')
@@ -84,7 +102,7 @@ class Trace(harness.ProgramTest):
     def test_refuses_what_is_no_picture_to_trace(self):
         whole = (GOLDENS / "house.png").read_bytes()
         for name, data, said in [("empty.png", b"", "no photograph"),
-                                 ("cut.png", whole[:2000], "cannot be read to its end"),
+                                 ("cut.png", whole[:2000], "no photograph"),
                                  ("huge.png", png(100000, 100000, b""), "no photograph"),
                                  ("tiny.png", png(3, 3, b"\0aaa" * 3), "less than 16 pixels"),
                                  ("blank.png", png(200, 200, (b"\0" + b"a" * 200) * 200), "no straight edge")]:

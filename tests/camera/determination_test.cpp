@@ -94,6 +94,60 @@ TEST(Determination, WhatNothingSeesIsFree) {
   EXPECT_EQ(d.undetermined[0].find("position is not seen"), 0u);
 }
 
+// What closes one group of quantities does not close another: each is told with what does.
+TEST(Determination, ScaleIsToldApartFromTheCamerasOwn) {
+  std::vector<Quantity> quantities = kThree;
+  quantities.push_back({Kind::kUnknown, 1, "`width`"});
+  Eigen::MatrixXd j = RandomRows(9, 4, 7);
+  j.col(1) = j.col(0), j.col(3) = j.col(2);
+  const Determination d = Determine(j, 9, quantities);
+  EXPECT_EQ(d.undetermined, std::vector<std::string>(
+                                {"focal length and skew trade off: a second independent ratio or a "
+                                 "third dimension closes it",
+                                 "position and `width` trade off: a known length, or a deviation "
+                                 "of the unknown, closes it"}));
+}
+
+TEST(Determination, WhatScaleAccountsForIsNoPartOfTheCamerasOwn) {
+  std::vector<Quantity> quantities = kThree;
+  quantities.push_back({Kind::kUnknown, 1, "`width`"});
+  // Along (1, 1, 0, 1) the camera is open, along (0, 0, 1, 1) scale: together they leave out
+  // `width`.
+  Eigen::MatrixXd open(4, 2);
+  open << 1, 0, 1, 0, 0, 1, 1, 1;
+  const Eigen::MatrixXd seen = open.transpose().fullPivLu().kernel();
+  const Determination d = Determine(RandomRows(9, 2, 10) * seen.transpose(), 9, quantities);
+  ASSERT_EQ(d.undetermined.size(), 2u);
+  EXPECT_EQ(d.undetermined[0].find("focal length, skew and position trade off: a second"), 0u);
+  EXPECT_EQ(d.undetermined[1].find("position and `width` trade off: a known length"), 0u);
+}
+
+TEST(Determination, AnUnknownThatTheCameraHangsOnIsToBeKnown) {
+  std::vector<Quantity> quantities = kThree;
+  quantities.push_back({Kind::kUnknown, 1, "`depth`"});
+  Eigen::MatrixXd j = RandomRows(9, 4, 8);
+  j.col(3) = j.col(0);
+  EXPECT_EQ(
+      Determine(j, 9, quantities).undetermined,
+      std::vector<std::string>({"focal length and `depth` trade off: a known length, a second "
+                                "independent ratio, or a deviation of `depth` closes it"}));
+  // Two directions and one unknown: its value would leave one of them open.
+  j.col(1) = j.col(0);
+  EXPECT_EQ(Determine(j, 9, quantities).undetermined,
+            std::vector<std::string>({"focal length, skew and `depth` trade off: a second "
+                                      "independent ratio or a third dimension closes it"}));
+}
+
+TEST(Determination, WhatNothingTracedDependsOnIsToBeTraced) {
+  std::vector<Quantity> quantities = kThree;
+  quantities.push_back({Kind::kUnknown, 1, "`depth`"});
+  Eigen::MatrixXd j = RandomRows(9, 4, 9);
+  j.col(3).setZero();
+  EXPECT_EQ(Determine(j, 9, quantities).undetermined,
+            std::vector<std::string>({"`depth` is not seen by anything traced: a trace of what "
+                                      "depends on it, or a deviation of the unknown, closes it"}));
+}
+
 TEST(Determination, UnitsDoNotMatter) {
   // The same problem in millimetres and kilometres.
   const Eigen::MatrixXd j = RandomRows(9, 3, 6);

@@ -274,6 +274,49 @@ TEST(CutOff, APictureIsWholeOrAnError) {
   }
 }
 
+TEST(CutOff, IsSeenFromTheSegmentsAlone) {
+  const Samples s = Ramp(61, 43);
+  PngOptions interlaced;
+  interlaced.interlaced = true;
+  JpegOptions plain, progressive, restarted, turned;
+  progressive.progressive = true;
+  restarted.restart_rows = 1;
+  turned.orientation = 6;
+  for (const std::string& file :
+       {JpegFileOf(s, plain), JpegFileOf(s, progressive), JpegFileOf(s, restarted),
+        JpegFileOf(s, turned), PngFileOf(s), PngFileOf(s, interlaced)}) {
+    EXPECT_TRUE(PhotoSizeOf(BytesOf(file)).has_value());
+    for (const std::size_t size : {file.size() - 1, file.size() - 2, file.size() * 2 / 3}) {
+      const auto cut = PhotoSizeOf(BytesOf(file.substr(0, size)));
+      ASSERT_FALSE(cut.has_value()) << size << " of " << file.size();
+      EXPECT_EQ(cut.error().code, ErrorCode::kUnreadable);
+      EXPECT_NE(cut.error().detail.find("cut off"), std::string::npos) << cut.error().detail;
+    }
+  }
+}
+
+TEST(CutOff, WhatFollowsAWholeJpegIsLetBe) {
+  const std::string file = JpegFileOf(Ramp());
+  const std::string half = file.substr(0, file.size() / 2);
+  // Zeros of a card's last block; a second picture, as phones append one, and the half of one.
+  for (const std::string& after : {std::string(4096, '\0'), std::string("\xff"), file, half})
+    EXPECT_TRUE(PhotoSizeOf(BytesOf(file + after)).has_value());
+  // Fill bytes before the end's marker.
+  const std::string filled = file.substr(0, file.size() - 2) + "\xff\xff\xff\xd9";
+  EXPECT_TRUE(PhotoSizeOf(BytesOf(filled)).has_value());
+  EXPECT_TRUE(Decode(filled).has_value());
+}
+
+TEST(CutOff, AThumbnailsEndIsNotThePictures) {
+  const std::string thumbnail = JpegFileOf(Ramp(8, 8)), file = JpegFileOf(Ramp());
+  const std::size_t length = thumbnail.size() + 2;
+  const std::string segment = std::string("\xff\xe2") + static_cast<char>(length >> 8) +
+                              static_cast<char>(length & 0xff) + thumbnail;
+  const std::string with = file.substr(0, 2) + segment + file.substr(2);
+  EXPECT_TRUE(PhotoSizeOf(BytesOf(with)).has_value());
+  EXPECT_FALSE(PhotoSizeOf(BytesOf(with.substr(0, with.size() - 2))).has_value());
+}
+
 TEST(Damage, NeverGivesAPictureOfAnotherLayout) {
   for (const std::string& file : OneOfEachKind()) {
     for (std::size_t at = 0; at < file.size(); at += 1 + file.size() / 400) {

@@ -128,6 +128,7 @@ std::string JpegFileOf(const Samples& s, const JpegOptions& options) {
   const bool inverted = s.channels == 4 && options.adobe;
   if (s.channels == 4) writer.write_Adobe_marker = inverted ? TRUE : FALSE;
   if (options.progressive) jpeg_simple_progression(&writer);
+  writer.restart_in_rows = options.restart_rows;
   jpeg_start_compress(&writer, TRUE);
   std::string exif("Exif\0\0", 6);
   exif += Exif(options.orientation);

@@ -36,8 +36,9 @@ std::string PalettePngFileOf(int width, int height, const std::vector<std::uint8
 
 struct JpegOptions {
   bool progressive = false;
-  int orientation = 0;  // in EXIF; 0: none is written
-  bool adobe = true;    // for CMYK: Adobe's marker and inverted samples
+  int orientation = 0;   // in EXIF; 0: none is written
+  bool adobe = true;     // for CMYK: Adobe's marker and inverted samples
+  int restart_rows = 0;  // of blocks, between restart markers; 0: there are none
 };
 // Grey, RGB or CMYK (samples are ink) for 1, 3 or 4 channels; quality 100, no subsampling.
 std::string JpegFileOf(const Samples&, const JpegOptions& = {});
