@@ -84,9 +84,10 @@ TEST_F(PixelsTest, AreUpright) {
   EXPECT_NEAR((*pixels)->rgb[0], 2 * 7, 6);
 }
 
-TEST_F(PixelsTest, OfAFileCutOffAreRefused) {
+TEST_F(PixelsTest, OfAFileDamagedInsideAreRefused) {
   std::string file = camera::PngFileOf(Ramp());
-  files_["torn.png"] = file.substr(0, file.size() - 30);
+  file[file.size() - 30] ^= '\x55';
+  files_["torn.png"] = file;
   const auto pixels = PixelsOf(*After("attach photo \"torn.png\" as a", "a"));
   ASSERT_FALSE(pixels.has_value());
   EXPECT_EQ(pixels.error().code, Code::kNoPhotograph);
