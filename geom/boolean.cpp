@@ -49,7 +49,7 @@ class LotEvaluation {
       : lot_(lot), expression_(*expression), arrangement_(SoupOf(leaves, conforms), false) {
     for (const std::uint32_t leaf : lot) {
       const Box box = BoundingBox(*leaves[leaf]);
-      boxes_.push_back({box.min.array() - kCoincident_m, box.max.array() + kCoincident_m});
+      boxes_.push_back({box.min.array() - kConformed_m, box.max.array() + kConformed_m});
     }
   }
 
@@ -232,7 +232,7 @@ Result<std::vector<Leaf>> UncrossedLeaves(const std::vector<Leaf>& leaves,
                                           const std::vector<std::uint32_t>& lot) {
   std::vector<Leaf> uncrossed = leaves;
   for (const std::uint32_t leaf : lot) {
-    if (!HasSelfIntersection(*leaves[leaf])) continue;
+    if (!leaves[leaf]->may_cross || !HasSelfIntersection(*leaves[leaf])) continue;
     auto mesh = Uncrossed(*leaves[leaf]);
     if (!mesh) return tl::unexpected(mesh.error());
     uncrossed[leaf] = std::make_shared<const TriangleMesh>(std::move(*mesh));
@@ -248,7 +248,9 @@ Result<TriangleMesh> SurfaceOf(const std::vector<Leaf>& leaves,
     LotEvaluation evaluation(*uncrossed, lot, expression, conforms);
     auto pieces = evaluation.Pieces();
     if (!pieces) return tl::unexpected(pieces.error());
-    if (AreClosed(*pieces)) return evaluation.Surface(std::move(*pieces));
+    if (!AreClosed(*pieces)) continue;
+    auto surface = evaluation.Surface(std::move(*pieces));
+    if (surface || conforms) return surface;
   }
   return tl::unexpected(Error{ErrorCode::kDegenerate, "its surface does not close"});
 }

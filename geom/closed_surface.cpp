@@ -167,7 +167,7 @@ Result<TriangleMesh> EnclosedMesh(const std::vector<Surface>& surfaces,
     return tl::unexpected(
         Error{ErrorCode::kNotClosed, "more than two of them meet along one border"});
   }
-  return FacingOutward(std::move(stitched.mesh));
+  return MayCross(FacingOutward(std::move(stitched.mesh)));
 }
 
 Result<TriangleMesh> ThickenedMesh(const std::vector<Surface>& surfaces,
@@ -191,7 +191,7 @@ Result<TriangleMesh> ThickenedMesh(const std::vector<Surface>& surfaces,
     return tl::unexpected(
         Error{ErrorCode::kOutOfRange, "somewhere the surface bends more tightly than it is moved"});
   }
-  return FacingOutward(Layers(mesh, front, back));
+  return MayCross(FacingOutward(Layers(mesh, front, back)));
 }
 
 }  // namespace tranos::geom

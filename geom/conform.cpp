@@ -23,9 +23,6 @@ using Edge = std::pair<std::uint32_t, std::uint32_t>;  // the lower position fir
 // Edges that pass one another nearer than this cross. More than kCoincident_m, so that no two edges
 // that are drawn in one facet, each that near to it, cross there without a corner.
 constexpr double kCrossing_m = 3 * kCoincident_m;
-// Corners nearer to one another than this are one. Many times what counts as meeting, for of three
-// corners of a triangle that small each lies on the edge of the other two.
-constexpr double kApart_m = 16 * kCoincident_m;
 
 template <class T>
 void MakeUnique(std::vector<T>* list) {
@@ -145,7 +142,7 @@ class DividedEdges {
     if ((p - q).norm() > kCrossing_m) return;
     const Vec3 middle = 0.5 * (p + q);
     for (const std::uint32_t end : {s.first, s.second, t.first, t.second}) {
-      if ((At(end) - middle).norm() <= kApart_m) return;
+      if ((At(end) - middle).norm() <= kConformed_m) return;
     }
     const std::size_t count = positions_.size();
     const std::uint32_t corner = index_.Of(middle, &positions_);
@@ -178,7 +175,7 @@ class DividedEdges {
   }
 
   std::vector<Vec3>& positions_;
-  PositionIndex index_{kApart_m};
+  PositionIndex index_{kConformed_m};
   std::map<Edge, std::vector<std::uint32_t>> chains_;
   std::vector<std::uint32_t> corners_;
 };
@@ -363,7 +360,7 @@ TriangleMesh Conformed(TriangleMesh mesh) {
   // What is divided is bent by a hair, and may come to lie in something else. Facets that lie in
   // one another in part only, at an angle of next to nothing, never come to rest.
   constexpr int kMostRounds = 3;
-  mesh = Merged(std::move(mesh), kApart_m);
+  mesh = Merged(std::move(mesh), kConformed_m);
   for (int round = 0; round < kMostRounds; ++round) {
     const std::size_t count = mesh.triangles.size();
     mesh = ConformedOnce(mesh);

@@ -6,9 +6,14 @@
 
 namespace tranos::geom {
 
-// The same surface, in which what is nearer than about kCoincident_m is one: facets are divided,
-// and so bent by no more than that, where corners and edges of others lie in them, until facets
-// that lie in one another have the same corners. A closed surface stays closed.
+// By no more than this corners are moved. Many times kCoincident_m, which is what counts as
+// meeting: of three corners of a triangle that small each lies on the edge of the other two.
+inline constexpr double kConformed_m = 16 * kCoincident_m;
+
+// The same surface, in which what meets is one: corners nearer than kConformed_m are merged, facets
+// are divided where corners and edges of others lie in them, nearer than kCoincident_m and three
+// times that, until facets that lie in one another have the same corners. What is thinner than
+// kConformed_m may be gone. A closed surface stays closed.
 TriangleMesh Conformed(TriangleMesh mesh);
 
 }  // namespace tranos::geom

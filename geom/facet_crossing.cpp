@@ -258,8 +258,13 @@ bool HasCrossing(const Soup& soup, const std::vector<bool>& is_suspect) {
 bool HasNearMiss(const Soup& soup) {
   const BoxTree tree(BoxesOf(soup));
   const Vec3 reach = Vec3::Constant(kCoincident_m);
+  std::vector<bool> is_used(soup.positions.size());
+  for (const SoupFacet& facet : soup.facets) {
+    for (const std::uint32_t corner : facet.corners) is_used[corner] = true;
+  }
   bool found = false;
   for (std::uint32_t i = 0; i < soup.positions.size() && !found; ++i) {
+    if (!is_used[i]) continue;
     const Vec3& p = soup.positions[i];
     tree.ForEachMeeting({p - reach, p + reach}, [&](std::uint32_t f) {
       const Corners& c = soup.facets[f].corners;

@@ -208,7 +208,7 @@ Result<TriangleMesh> LoftMesh(const std::vector<Curve>& outlines, const Toleranc
   for (std::uint32_t i = 0; i + 1 < loops->size(); ++i) stations.runs.push_back(i);
   stations.run_count = static_cast<std::uint32_t>(loops->size()) - 1;
   stations.last_triangles = *std::move(last);
-  return SkinOf(FirstOutline(*loops, *std::move(first)), stations);
+  return MayCross(SkinOf(FirstOutline(*loops, *std::move(first)), stations));
 }
 
 namespace {

@@ -263,6 +263,7 @@ Result<TriangleMesh> Uncrossed(const TriangleMesh& mesh) {
 }
 
 void MeshRow::Append(const TriangleMesh& mesh) {
+  row_.may_cross |= mesh.may_cross;
   const auto first = static_cast<std::uint32_t>(row_.positions.size());
   row_.positions.insert(row_.positions.end(), mesh.positions.begin(), mesh.positions.end());
   for (const Corners& t : mesh.triangles) {

@@ -43,7 +43,7 @@ class Sweeper {
     stations.closed = path_.closed;
     for (std::size_t k = 0; k < path_.corners.size(); ++k) stations.points.push_back(StationAt(k));
     if (!GoesForward(stations)) return TooTight();
-    return SkinOf(outline_, stations);
+    return MayCross(SkinOf(outline_, stations));
   }
 
  private:

@@ -39,7 +39,7 @@ Result<double> Solid::FilledVolume() const {
   const auto facets = Facets();
   if (!facets) return tl::unexpected(facets.error());
   double volume_m3 = Volume(**facets);
-  if (HasSelfIntersection(**facets)) {
+  if ((*facets)->may_cross && HasSelfIntersection(**facets)) {
     const auto uncrossed = Uncrossed(**facets);
     if (!uncrossed) return tl::unexpected(uncrossed.error());
     volume_m3 = Volume(*uncrossed);

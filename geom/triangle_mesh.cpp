@@ -108,11 +108,22 @@ Box BoundingBox(const TriangleMesh& mesh) {
 }
 
 int Genus(const TriangleMesh& mesh) {
-  std::vector<bool> used(mesh.positions.size());
-  for (const auto& triangle : mesh.triangles) {
-    for (const std::uint32_t corner : triangle) used[corner] = true;
-  }
-  const auto vertices = std::count(used.begin(), used.end(), true);
+  // A position where parts touch is a corner of each: there are as many as fans of triangles.
+  UnionFind fans(3 * mesh.triangles.size());
+  const auto corner_at = [&](std::uint32_t triangle, std::uint32_t position) {
+    const auto& t = mesh.triangles[triangle];
+    return 3 * triangle +
+           static_cast<std::uint32_t>(std::find(t.begin(), t.end(), position) - t.begin());
+  };
+  ForEachEdge(SortedHalfEdges(mesh), [&](std::span<const HalfEdge> sides) {
+    for (const HalfEdge& side : sides) {
+      for (const std::uint32_t end : {side.low, side.high}) {
+        fans.Unite(corner_at(sides[0].triangle, end), corner_at(side.triangle, end));
+      }
+    }
+  });
+  std::ptrdiff_t vertices = 0;
+  for (std::uint32_t i = 0; i < 3 * mesh.triangles.size(); ++i) vertices += fans.Root(i) == i;
   const auto triangles = static_cast<std::ptrdiff_t>(mesh.triangles.size());
   // Of a closed mesh there are three edges to two triangles.
   const std::ptrdiff_t characteristic = vertices - 3 * triangles / 2 + triangles;

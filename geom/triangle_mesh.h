@@ -18,7 +18,13 @@ struct TriangleMesh {
   std::vector<Vec3> positions;
   std::vector<std::array<std::uint32_t, 3>> triangles;
   std::vector<std::uint32_t> surfaces;
+  bool may_cross = false;  // it was made in a way that does not keep it from crossing itself
 };
+// The mesh, of which that is so.
+inline Result<TriangleMesh> MayCross(Result<TriangleMesh> mesh) {
+  if (mesh) mesh->may_cross = true;
+  return mesh;
+}
 
 // Every edge is run along as often in one direction as in the other: nothing is open. Edges where
 // parts of a solid touch have more than two triangles.
@@ -30,7 +36,7 @@ double Area(const TriangleMesh&);    // m²
 Vec3 Centroid(const TriangleMesh&);  // of the enclosed volume; the box's centre where that is zero
 Box BoundingBox(const TriangleMesh&);
 // Handles through the surface, summed over its parts: 0 for a ball, 1 for a ring. Of meshes whose
-// edges have two triangles each.
+// edges have two triangles each; parts may touch in corners.
 int Genus(const TriangleMesh&);
 // The number of separate surfaces: parts that share no edge.
 int ShellCount(const TriangleMesh&);

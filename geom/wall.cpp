@@ -79,7 +79,7 @@ class WallBuilder {
       AddQuad(offsets_.left[0], offsets_.right[0]);
       AddQuad(offsets_.right[last], offsets_.left[last]);
     }
-    return FacingOutward(Welded(mesh_));
+    return MayCross(FacingOutward(Welded(mesh_)));
   }
 
  private:

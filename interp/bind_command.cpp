@@ -305,7 +305,7 @@ void Binder::BindPoint(NodeId id, const PointKeyRow& row, const std::vector<Node
     const Operand interface = single(values[0], Type::kAny);
     const Operand own =
         count == 1 ? AddText("") : Typed({values[1]}, Type::kName, false, {}, row.key, values[1]);
-    Emit({Op::kPoint, packed, 0, own, interface, 1}, span);
+    Emit({Op::kPoint, packed, 0, own, interface, static_cast<std::uint32_t>(count)}, span);
     return;
   }
   if (count == 1 && row.kind != PointKey::kDl && row.kind != PointKey::kDx) {

@@ -77,6 +77,10 @@ double VolumeOf(const model::Element& element) {
 double FilledVolumeOf(const model::Element& element) {
   const std::optional<double> volume_m3 = model::FilledVolume(element);
   if (volume_m3) return Finite(*volume_m3);
+  if (model::Volume(element)) {
+    throw OpFailure{Code::kDegenerate, "the parts cannot be united to measure them", "",
+                    "`volume` is the sum of theirs"};
+  }
   throw OpFailure{Code::kWrongElement, WithArticle(model::TypeOf(element)) + " has no solids", "",
                   "`volume` is that of closed surfaces, too"};
 }

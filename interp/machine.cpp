@@ -361,8 +361,12 @@ void Machine::PointEffect(const Instruction& i, const CodeUnit& unit, const Valu
     if (kind != PointKey::kOn) return stage->Point(kind, value, span);
     const model::Interface interface = InterfaceOf(value);
     const Value* host = value.record().Find("of");
-    return stage->On(interface, Get(i.a, r, unit.constants.data()).string(),
-                     host ? host->element()->id : model::kNoElement, span);
+    const std::string& own = Get(i.a, r, unit.constants.data()).string();
+    if (i.c == 2 && own.empty()) {
+      Fail(Code::kUnknownMember, span, "the second name of `on=` is empty", "",
+           "the name of one of the element's own interfaces, or none for its origin");
+    }
+    return stage->On(interface, own, host ? host->element()->id : model::kNoElement, span);
   }
   const Unit& measure = program_.measures[i.n];
   if (i.c == 1) {

@@ -126,20 +126,65 @@ std::vector<std::string> CurveMembers(const geom::Curve& curve) {
 constexpr std::string_view kSolidMembers[] = {"centroid", "closed", "genus",
                                               "faces",    "shells", "self_intersects"};
 
-// What is measured on a solid's facets; nothing where it has no such member.
+bool HasSolids(const Element& element) {
+  bool has_any = false;
+  model::ForEachLeaf(element,
+                     [&](const Element& leaf, const geom::Affine&, const model::Attributes&) {
+                       has_any |= SolidOf(leaf) != nullptr;
+                     });
+  return has_any;
+}
+
+// The facets of all solids of an element, those of each by themselves.
+geom::TriangleMesh FacetsOf(const Element& element) {
+  geom::TriangleMesh all;
+  std::uint32_t surfaces = 0;
+  model::ForEachLeaf(element, [&](const Element& leaf, const geom::Affine& world_from_leaf,
+                                  const model::Attributes&) {
+    const geom::Solid* solid = SolidOf(leaf);
+    if (!solid) return;
+    const geom::TriangleMesh facets = geom::Transformed(**solid->Facets(), world_from_leaf);
+    const auto first = static_cast<std::uint32_t>(all.positions.size());
+    all.positions.insert(all.positions.end(), facets.positions.begin(), facets.positions.end());
+    for (const auto& [a, b, c] : facets.triangles) {
+      all.triangles.push_back({a + first, b + first, c + first});
+    }
+    std::uint32_t next = surfaces;
+    for (const std::uint32_t surface : facets.surfaces) {
+      all.surfaces.push_back(surfaces + surface);
+      next = std::max(next, surfaces + surface + 1);
+    }
+    surfaces = next;
+  });
+  return all;
+}
+
+// Of each solid by itself: parts may touch.
+bool AnyIntersectsItself(const Element& element) {
+  bool any = false;
+  model::ForEachLeaf(element,
+                     [&](const Element& leaf, const geom::Affine&, const model::Attributes&) {
+                       const geom::Solid* solid = SolidOf(leaf);
+                       any = any || (solid && geom::HasSelfIntersection(**solid->Facets()));
+                     });
+  return any;
+}
+
+// What is measured on the facets of an element's solids; nothing where it has no such member.
 std::optional<Value> SolidMember(const CallContext& context, const Element& element,
                                  std::string_view name) {
   if (std::find(std::begin(kSolidMembers), std::end(kSolidMembers), name) ==
-      std::end(kSolidMembers)) {
+          std::end(kSolidMembers) ||
+      !HasSolids(element)) {
     return std::nullopt;
   }
   context.evaluate(element);
-  const geom::TriangleMesh& facets = **SolidOf(element)->Facets();
+  if (name == "self_intersects") return Value::Boolean(AnyIntersectsItself(element));
+  const geom::TriangleMesh facets = FacetsOf(element);
   if (name == "centroid") return Value::OfPoint(geom::Centroid(facets));
   if (name == "closed") return Value::Boolean(geom::IsClosed(facets));
   if (name == "genus") return Value::Number(geom::Genus(facets));
   if (name == "shells") return Value::Number(geom::ShellCount(facets));
-  if (name == "self_intersects") return Value::Boolean(geom::HasSelfIntersection(facets));
   std::vector<std::uint32_t> surfaces = facets.surfaces;
   std::sort(surfaces.begin(), surfaces.end());
   const auto end = std::unique(surfaces.begin(), surfaces.end());
@@ -315,7 +360,6 @@ std::optional<Value> OwnMember(const CallContext& context, const ElementPtr& nam
     return PlaceMember(point->position, name);
   }
   if (const geom::Curve* curve = CurveOf(element)) return CurveMember(context, *curve, name);
-  if (SolidOf(element)) return SolidMember(context, element, name);
   if (const geom::Region* region = RegionOf(element)) return RegionMember(context, *region, name);
   if (const auto* text = std::get_if<model::TextPtr>(&element.geometry)) {
     if (name == "text") return Value::String((*text)->content);
@@ -336,12 +380,12 @@ std::optional<Value> OwnMember(const CallContext& context, const ElementPtr& nam
     return OrthophotoMember(**made, name);
   }
   if (const auto* group = std::get_if<model::GroupPtr>(&element.geometry)) {
-    return GroupMember(context, element, **group, name);
+    if (auto own = GroupMember(context, element, **group, name)) return own;
   }
   if (std::holds_alternative<model::InstancePtr>(element.geometry)) {
-    return InstanceMember(context, named, name);
+    if (auto own = InstanceMember(context, named, name)) return own;
   }
-  return std::nullopt;
+  return SolidMember(context, element, name);
 }
 
 std::vector<std::string> OwnMembers(const Element& element) {
@@ -349,7 +393,6 @@ std::vector<std::string> OwnMembers(const Element& element) {
     return {"position", "x", "y", "z", "covariance"};
   if (const geom::Curve* curve = CurveOf(element)) return CurveMembers(*curve);
   if (SurfaceOf(element)) return {"point(u, v)", "normal(u, v)"};
-  if (SolidOf(element)) return {std::begin(kSolidMembers), std::end(kSolidMembers)};
   if (RegionOf(element)) return {"perimeter", "centroid", "parts", "holes", "plane"};
   if (std::holds_alternative<model::TextPtr>(element.geometry)) {
     return {"text", "height", "plane", "position", "x", "y", "z"};
@@ -371,6 +414,9 @@ std::vector<std::string> OwnMembers(const Element& element) {
     for (const auto& [name, value] : prototype.parameters) names.push_back(name);
     for (const model::NamedElements& named : prototype.names) names.push_back(named.name);
     for (const model::Interface& interface : prototype.interfaces) names.push_back(interface.name);
+  }
+  if (HasSolids(element)) {
+    names.insert(names.end(), std::begin(kSolidMembers), std::end(kSolidMembers));
   }
   return names;
 }

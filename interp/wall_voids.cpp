@@ -58,9 +58,20 @@ ElementPtr WithSolid(const Element& wall, geom::Solid solid) {
                                                       instance.world_from_prototype}));
 }
 
-// More than a touch.
-bool Overlap(const geom::Box& a, const geom::Box& b) {
-  return (a.max.cwiseMin(b.max) - a.min.cwiseMax(b.min)).minCoeff() > geom::kCoincident_m;
+// By the boxes of its facets: a wall with corners fills little of its own. A void as deep as the
+// wall ends where they are.
+bool MeetsFacets(const geom::Solid& wall, const geom::Box& box) {
+  const auto facets = wall.Facets();
+  if (!facets) return true;
+  const geom::Vec3 low = box.min.array() - geom::kCoincident_m;
+  const geom::Vec3 high = box.max.array() + geom::kCoincident_m;
+  return std::any_of((*facets)->triangles.begin(), (*facets)->triangles.end(),
+                     [&](const std::array<std::uint32_t, 3>& triangle) {
+                       geom::Box facet;
+                       for (const std::uint32_t i : triangle) facet.Add((*facets)->positions[i]);
+                       return (facet.min.array() <= high.array()).all() &&
+                              (low.array() <= facet.max.array()).all();
+                     });
 }
 
 bool StandsElsewhere(const Instance& a, const Instance& b) {
@@ -77,9 +88,9 @@ bool WallVoids::Place(const Model& model, ElementId wall, ElementId guest, const
   std::vector<geom::Solid> voids;
   AddVoids(element, InstanceOf(*host)->world_from_prototype.inverse(), &voids);
   if (voids.empty()) return true;
-  const geom::Box box = solid->Bounds();
-  if (std::none_of(voids.begin(), voids.end(),
-                   [&](const geom::Solid& v) { return Overlap(v.Bounds(), box); })) {
+  if (std::none_of(voids.begin(), voids.end(), [&](const geom::Solid& hollow) {
+        return MeetsFacets(*solid, hollow.Bounds());
+      })) {
     return false;
   }
   Wall& entry = walls_.try_emplace(wall, Wall{solid, {}}).first->second;

@@ -199,8 +199,10 @@ std::optional<double> Volume(const Element& element) {
       if (!mesh) return;
       AddTo(sum, std::abs(world.linear().determinant()) * EnclosedVolume(*mesh));
     } else if constexpr (std::is_same_v<Shape, geom::Solid>) {
-      const auto volume_m3 = shape.FilledVolume();
-      if (volume_m3) AddTo(sum, std::abs(world.linear().determinant()) * *volume_m3);
+      const auto facets = shape.Facets();
+      if (!facets) return;
+      const double volume_m3 = shape.FilledVolume().value_or(geom::Volume(**facets));
+      AddTo(sum, std::abs(world.linear().determinant()) * volume_m3);
     }
   });
   return sum;

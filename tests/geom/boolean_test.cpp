@@ -75,6 +75,7 @@ TEST(Boolean, FlushTouchingCoincidentAndEmptyBoxes) {
     EXPECT_NEAR(Area(mesh), expected.area_m2, 1e-12);
     EXPECT_EQ(mesh.triangles.size(), expected.triangles);
     EXPECT_EQ(ShellCount(mesh), expected.shells);
+    EXPECT_EQ(Genus(mesh), 0);
   }
 }
 
@@ -122,8 +123,6 @@ TEST(Boolean, ATurnedSolidIsTheTurnedResult) {
   EXPECT_NEAR(VolumeOf(Solid::Difference(a, {b}).Transformed(mirror)), 5.5, 1e-12);
 }
 
-// Two of the box's sides meet its top in a line that runs on beyond it, so that the facets between
-// have no width.
 // Bricks that share parts of their faces, each carried to its place on its own.
 std::vector<Solid> BrickWall(const Affine& world_from_wall) {
   std::vector<Solid> bricks;
@@ -168,6 +167,8 @@ TEST(Boolean, AGapOfARoundingErrorIsNone) {
   EXPECT_NEAR(Volume(pillar), 0.8 * 0.8 * 0.27 + 0.6 * 0.6 * 3, 1e-9);
 }
 
+// Two of the box's sides meet its top in a line that runs on beyond it, so that the facets between
+// have no width.
 TEST(Boolean, FacetsWithoutWidthDoNoHarm) {
   TriangleMesh box = FacetsOf(Unit(0, 0, 0));
   const std::array<std::uint32_t, 3> first = box.triangles[0];
