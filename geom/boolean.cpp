@@ -8,6 +8,7 @@
 #include "geom/arrangement.h"
 #include "geom/box_tree.h"
 #include "geom/conform.h"
+#include "geom/mesh_row.h"
 #include "geom/plane_regions.h"
 #include "geom/solid_expression.h"
 #include "geom/solid_rounding.h"

@@ -262,19 +262,4 @@ Result<TriangleMesh> Uncrossed(const TriangleMesh& mesh) {
   return HasCrossingAt(*cut, {}) ? Settled(std::move(*cut)) : cut;
 }
 
-void MeshRow::Append(const TriangleMesh& mesh) {
-  row_.may_cross |= mesh.may_cross;
-  const auto first = static_cast<std::uint32_t>(row_.positions.size());
-  row_.positions.insert(row_.positions.end(), mesh.positions.begin(), mesh.positions.end());
-  for (const Corners& t : mesh.triangles) {
-    row_.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
-  }
-  std::uint32_t taken = surfaces_;
-  for (const std::uint32_t s : mesh.surfaces) {
-    row_.surfaces.push_back(s + surfaces_);
-    taken = std::max(taken, s + surfaces_ + 1);
-  }
-  surfaces_ = taken;
-}
-
 }  // namespace tranos::geom

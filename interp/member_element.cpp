@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 
+#include "geom/mesh_row.h"
 #include "interp/camera_report.h"
 #include "interp/differences.h"
 #include "interp/value_support.h"
@@ -137,26 +138,13 @@ bool HasSolids(const Element& element) {
 
 // The facets of all solids of an element, those of each by themselves.
 geom::TriangleMesh FacetsOf(const Element& element) {
-  geom::TriangleMesh all;
-  std::uint32_t surfaces = 0;
+  geom::MeshRow row;
   model::ForEachLeaf(element, [&](const Element& leaf, const geom::Affine& world_from_leaf,
                                   const model::Attributes&) {
     const geom::Solid* solid = SolidOf(leaf);
-    if (!solid) return;
-    const geom::TriangleMesh facets = geom::Transformed(**solid->Facets(), world_from_leaf);
-    const auto first = static_cast<std::uint32_t>(all.positions.size());
-    all.positions.insert(all.positions.end(), facets.positions.begin(), facets.positions.end());
-    for (const auto& [a, b, c] : facets.triangles) {
-      all.triangles.push_back({a + first, b + first, c + first});
-    }
-    std::uint32_t next = surfaces;
-    for (const std::uint32_t surface : facets.surfaces) {
-      all.surfaces.push_back(surfaces + surface);
-      next = std::max(next, surfaces + surface + 1);
-    }
-    surfaces = next;
+    if (solid) row.Append(geom::Transformed(**solid->Facets(), world_from_leaf));
   });
-  return all;
+  return row.Take();
 }
 
 // Of each solid by itself: parts may touch.
